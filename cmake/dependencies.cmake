@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright the Swiftlet authors
+
+# Core: what a planner that links swiftlet::core needs.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(tl-expected REQUIRED)
+find_package(fmt 9 REQUIRED)
+find_package(Threads REQUIRED)
+
+# I/O: what swiftlet::swiftlet adds.
+find_package(SQLite3 REQUIRED)
+find_package(PNG REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
+
+# Optional parts (see swiftlet_backend()).
+swiftlet_backend(NAME embree PACKAGE embree)    # ray casts the simulated scenes
+swiftlet_backend(NAME octomap PACKAGE octomap)  # writes and reads .bt / .ot
+
+# The program.
+if(SWIFTLET_BUILD_PROGRAM)
+  find_package(CLI11 REQUIRED)
+  find_package(nlohmann_json REQUIRED)
+endif()
+
+# yaml-cpp named its target plainly before 0.8.
+if(TARGET yaml-cpp::yaml-cpp)
+  set(SWIFTLET_YAML_CPP yaml-cpp::yaml-cpp)
+else()
+  set(SWIFTLET_YAML_CPP yaml-cpp)
+endif()

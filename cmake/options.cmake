@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright the Swiftlet authors
+
+# Everything a Swiftlet target is compiled with; nothing of it reaches a consumer.
+function(swiftlet_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual
+    # The same map bits on x86-64 and aarch64: no silent fused multiply-add.
+    -ffp-contract=off)
+  if(SWIFTLET_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(SWIFTLET_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${SWIFTLET_SANITIZE} -fno-omit-frame-pointer
+                                             -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=${SWIFTLET_SANITIZE}>)
+  endif()
+  if(SWIFTLET_COVERAGE)
+    target_compile_options(${target} PRIVATE --coverage)
+    target_link_options(${target} PUBLIC $<BUILD_INTERFACE:--coverage>)
+  endif()
+endfunction()

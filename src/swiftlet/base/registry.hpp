@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "swiftlet/base/expected.hpp"
+
+namespace swiftlet {
+
+/// One line of a registry: a name the user types, a sentence for `swiftlet list`, and how to make
+/// the thing. Registries are explicit tables, not self-registering objects: a linker drops those
+/// from a static library.
+template <class Make>
+struct Registered {
+  std::string_view name;
+  std::string_view summary;
+  Make make;
+};
+
+/// The entry of that name. Errors: kUsage naming what there is; `kind` is the noun, as in "ray
+/// method".
+template <class Make>
+[[nodiscard]] Expected<Registered<Make>> find_registered(std::span<const Registered<Make>> table,
+                                                         std::string_view name,
+                                                         std::string_view kind) {
+  const auto found = std::ranges::find(table, name, &Registered<Make>::name);
+  if (found != table.end()) return *found;
+  std::string known;
+  for (const auto& entry : table) known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  return fail(ErrorCode::kUsage, {},
+              "unknown " + std::string(kind) + " '" + std::string(name) + "'",
+              "known are: " + known);
+}
+
+}  // namespace swiftlet

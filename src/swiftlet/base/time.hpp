@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <chrono>
+#include <compare>
+#include <cstdint>
+#include <string_view>
+
+#include "swiftlet/base/expected.hpp"
+
+namespace swiftlet {
+
+using Nanoseconds = std::chrono::nanoseconds;
+
+/// A point in time: nanoseconds of the source's own clock. Never a double of seconds, which loses
+/// nanoseconds at today's epoch.
+struct Stamp {
+  std::int64_t ns = 0;
+
+  friend constexpr auto operator<=>(Stamp, Stamp) = default;
+  friend constexpr Nanoseconds operator-(Stamp a, Stamp b) { return Nanoseconds(a.ns - b.ns); }
+  friend constexpr Stamp operator+(Stamp a, Nanoseconds d) { return {a.ns + d.count()}; }
+  friend constexpr Stamp operator-(Stamp a, Nanoseconds d) { return {a.ns - d.count()}; }
+};
+
+/// Seconds between two stamps, for arithmetic and display; never to be stored as a time.
+[[nodiscard]] constexpr double seconds(Nanoseconds d) {
+  return static_cast<double>(d.count()) * 1e-9;
+}
+
+/// Reads "1305031102.175304" exactly (digits beyond nanoseconds are dropped), without passing
+/// through a double. Errors: kCorruptInput if the text is no decimal number of seconds or lies
+/// outside the range of int64 nanoseconds.
+[[nodiscard]] Expected<Stamp> parse_stamp(std::string_view text);
+
+}  // namespace swiftlet

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "swiftlet/base/voxel_index.hpp"
+#include "swiftlet/map/block_window.hpp"
+#include "swiftlet/map/snapshot_store.hpp"
+#include "swiftlet/map/voxel_block.hpp"
+
+namespace swiftlet {
+
+/// The map as it stood after one whole frame; never changes while it is held.
+///
+/// Frame: world. Thread safety: any thread, any number of readers. Cost: copying takes a reference;
+/// reading a cell is two array look-ups. A held snapshot keeps its blocks from being reused, so let
+/// go of it after planning: while all `max_snapshots` are held, the mapper goes on but publishes
+/// nothing newer.
+class MapSnapshot {
+ public:
+  [[nodiscard]] double voxel_m() const { return slot().voxel_m; }
+  [[nodiscard]] const BlockWindow& window() const { return slot().window; }
+  /// Number of frames integrated so far.
+  [[nodiscard]] std::uint64_t frame_count() const { return slot().frame_count; }
+
+  /// The block, or null where the window holds nothing but unknown cells. kUnknownCell outside the
+  /// window, too.
+  [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const;
+
+  [[nodiscard]] LogOdds log_odds(const VoxelIndex& voxel) const {
+    const VoxelBlock* block = find(block_of(voxel));
+    return block == nullptr ? kUnknownCell : block->cells[offset_in_block(voxel)];
+  }
+
+  /// Tells whether a block has changed since an earlier look: the publication in which this version
+  /// was born. 0 where there is no block.
+  [[nodiscard]] std::uint64_t version(const BlockIndex& index) const;
+
+  /// Calls visit(BlockIndex, const VoxelBlock&) for every block that holds more than unknown cells,
+  /// x fastest.
+  template <class Visit>
+  void for_each_known_block(Visit&& visit) const {
+    for_each_block(window(), [&](const BlockIndex& index) {
+      if (const VoxelBlock* block = find(index)) visit(index, *block);
+    });
+  }
+
+  MapSnapshot(const MapSnapshot& other);
+  MapSnapshot(MapSnapshot&& other) noexcept;
+  MapSnapshot& operator=(MapSnapshot other) noexcept;
+  ~MapSnapshot();
+
+ private:
+  friend class MapReader;
+  friend class RollingMap;
+  MapSnapshot(std::shared_ptr<SnapshotStore> store, int slot)
+      : store_(std::move(store)), slot_(slot) {}
+  [[nodiscard]] const SnapshotSlot& slot() const { return store_->slot(slot_); }
+
+  std::shared_ptr<SnapshotStore> store_;  // null only after a move
+  int slot_ = 0;
+};
+
+/// A reader's end of a map: hands out the newest published snapshot. While at least one MapReader
+/// exists, the mapper publishes after every frame; with none, snapshots cost nothing. Thread
+/// safety: each MapReader belongs to one thread; make one per thread.
+class MapReader {
+ public:
+  /// The newest snapshot; nullopt before the first frame that ends after this reader was made.
+  /// Never blocks the mapper and is never blocked by it.
+  [[nodiscard]] std::optional<MapSnapshot> latest() const;
+
+  MapReader(MapReader&&) noexcept = default;
+  MapReader& operator=(MapReader&& other) noexcept;
+  ~MapReader();
+
+ private:
+  friend class RollingMap;
+  explicit MapReader(std::shared_ptr<SnapshotStore> store);
+  std::shared_ptr<SnapshotStore> store_;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "swiftlet/base/expected.hpp"
+#include "swiftlet/map/block_archive.hpp"
+#include "swiftlet/map/block_directory.hpp"
+#include "swiftlet/map/map_snapshot.hpp"
+#include "swiftlet/map/snapshot_store.hpp"
+
+namespace swiftlet {
+
+/// Log-odds of a box of space that follows the vehicle (method 7).
+///
+/// Frame: world. The window is a box of whole 8 x 8 x 8-voxel blocks, at least size_m plus one
+/// block along each axis, so that wherever inside its block the vehicle is, the box of size_m
+/// around it is covered. It moves by whole blocks: blocks are the unit of storage, of sharing with
+/// readers and of eviction, so a move by cells would split every block on the rim for no gain; the
+/// spare block pays for the difference. Thread safety: one writer; any readers through reader().
+/// Invariants:
+///   1. a block exists only inside window(); recentre() is the only place that moves it
+///   2. a cell that entered the window and was neither observed nor restored is exactly
+///   kUnknownCell
+///   3. a block that readers may see never changes (SnapshotStore)
+/// Cost: look-up and update O(1), recentre O(slab that leaves and enters), snapshot O(blocks in the
+/// window) in words. Never allocates after construction.
+class RollingMap {
+ public:
+  struct Options {
+    double voxel_m = 0.2;
+    Eigen::Vector3d size_m{20.0, 20.0, 6.0};
+    Eigen::Vector3d trigger_m{1.0, 1.0, 1.0};  ///< half extents of the trigger box
+  };
+
+  /// What a move of the window did.
+  struct Shift {
+    bool moved = false;
+    std::size_t blocks_evicted = 0;
+    std::size_t blocks_restored = 0;
+  };
+
+  /// Errors: kInvalidConfig if an option is not positive and finite, or the window has no room for
+  /// a cell or more than 2^24 blocks (8 GiB); kOutOfMemory if the blocks cannot be reserved.
+  [[nodiscard]] static Expected<RollingMap> create(const Options& options);
+
+  [[nodiscard]] double voxel_m() const { return options_.voxel_m; }
+  [[nodiscard]] const BlockWindow& window() const { return directory_.window(); }
+
+  /// Keeps the vehicle inside: when it has left the trigger box around the place of the last move
+  /// (or on the first call), moves the window so that the vehicle is in the middle block again.
+  /// What leaves goes to `archive`, what enters comes from it; null drops and forgets. REQUIRES:
+  /// p_world finite and within +-10^6 m.
+  Shift recentre(const Eigen::Vector3d& p_world, BlockArchive* archive);
+
+  [[nodiscard]] LogOdds log_odds(const VoxelIndex& voxel) const {
+    const VoxelBlock* block = find(block_of(voxel));
+    return block == nullptr ? kUnknownCell : block->cells[offset_in_block(voxel)];
+  }
+
+  /// The block, or null if the window holds nothing but unknown cells there (or it lies outside).
+  [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const;
+
+  /// The block for writing, made of unknown cells if there was none. The reference is good until
+  /// the next publish(). REQUIRES: window().contains(index).
+  [[nodiscard]] VoxelBlock& writable(const BlockIndex& index);
+
+  /// Calls visit(BlockIndex, const VoxelBlock&) for every block that exists, x fastest.
+  template <class Visit>
+  void for_each_known_block(Visit&& visit) const {
+    for_each_block(window(), [&](const BlockIndex& index) {
+      if (const VoxelBlock* block = find(index)) visit(index, *block);
+    });
+  }
+
+  /// A reader for another thread.
+  [[nodiscard]] MapReader reader() const { return MapReader(store_); }
+  /// Hands the present state to the readers, if there are any; false if they hold every slot.
+  bool publish(std::uint64_t frame_count);
+  /// The present state, for the writer's own use; nullopt if readers hold every slot.
+  [[nodiscard]] std::optional<MapSnapshot> snapshot(std::uint64_t frame_count);
+
+  /// Memory that the map occupies by now: blocks ever used, directories, book-keeping [bytes].
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  RollingMap(const Options& options, BlockPool pool, const BlockIndex& window_size);
+  [[nodiscard]] BlockIndex first_block_around(const Eigen::Vector3d& p_world) const;
+
+  Options options_;
+  std::shared_ptr<SnapshotStore> store_;
+  BlockDirectory directory_;
+  std::optional<Eigen::Vector3d> anchor_;  // where the vehicle was at the last move [m, world]
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "swiftlet/base/expected.hpp"
+#include "swiftlet/frame/frame.hpp"
+
+namespace swiftlet {
+
+/// Why a source could not turn a depth image into a Frame.
+enum class FrameLoss : std::uint8_t {
+  kNoPose,       ///< no pose brackets its time: before the first, after the last, or none at all
+  kPoseGap,      ///< the bracketing poses lie too far apart to interpolate between
+  kPoseRefused,  ///< its pose is not finite, not unit, or not trusted by the tracker
+};
+inline constexpr std::array<std::string_view, 3> kFrameLossNames{"no_pose", "pose_gap",
+                                                                 "pose_refused"};
+
+/// Frames that came out of a source, and those that did not, by reason.
+struct FrameTally {
+  std::size_t delivered = 0;
+  std::array<std::size_t, kFrameLossNames.size()> lost{};
+  std::size_t poses_refused = 0;  ///< pose samples (not frames) that were refused
+
+  std::size_t& of(FrameLoss loss) { return lost[static_cast<std::size_t>(loss)]; }
+};
+
+/// What a source knows of itself before its first frame.
+struct SourceInfo {
+  std::string uri;             ///< as the user typed it
+  std::string native_up_axis;  ///< the world axis of the recording that points up, as in "-y"
+  std::optional<std::size_t> frame_count;  ///< for progress bars; absent where only the end tells
+  std::optional<double>
+      baseline_m;  ///< of the stereo pair (or projector and camera), where it is known
+};
+
+/// Where frames come from. Poses are in our world (z up), whatever the recording's own axes.
+/// Thread safety: none, one owner.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  /// The next frame in time order; nullopt at the end. Frames without a trustworthy pose are
+  /// skipped and counted. Errors: kCorruptInput, kIo, with file and line; the source is then at its
+  /// end.
+  [[nodiscard]] virtual Expected<std::optional<Frame>> next() = 0;
+
+  [[nodiscard]] virtual const SourceInfo& info() const = 0;
+  [[nodiscard]] virtual const FrameTally& tally() const = 0;
+};
+
+using FrameSourcePtr = std::unique_ptr<FrameSource>;
+
+}  // namespace swiftlet
