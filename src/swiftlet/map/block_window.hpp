@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "swiftlet/base/grid_ray.hpp"
 #include "swiftlet/base/voxel_index.hpp"
 
 namespace swiftlet {
@@ -32,6 +33,12 @@ struct BlockWindow {
   }
   friend constexpr bool operator==(const BlockWindow&, const BlockWindow&) = default;
 };
+
+/// All cells of a window.
+[[nodiscard]] constexpr VoxelBox voxel_box(const BlockWindow& window) {
+  const VoxelIndex behind = first_voxel(window.end());
+  return {first_voxel(window.first), {behind.x - 1, behind.y - 1, behind.z - 1}};
+}
 
 /// Calls visit(BlockIndex) for every block of a window, x fastest.
 template <class Visit>

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "swiftlet/base/voxel_index.hpp"
+
+namespace swiftlet {
+
+/// A segment in units of cells: the world position divided by voxel_m. Double, because a world
+/// index has up to 31 bits and the laws of traversal (which cells does a segment cross?) are to
+/// hold wherever the window is.
+struct GridRay {
+  Eigen::Vector3d from;
+  Eigen::Vector3d to;
+};
+
+/// A box of cells: [first, last] along each axis, both inside.
+struct VoxelBox {
+  VoxelIndex first;
+  VoxelIndex last;
+
+  [[nodiscard]] constexpr bool contains(const VoxelIndex& v) const {
+    return v.x >= first.x && v.x <= last.x && v.y >= first.y && v.y <= last.y && v.z >= first.z &&
+           v.z <= last.z;
+  }
+};
+
+/// The part of a segment inside a box, as parameters 0 <= begin <= end <= 1; begin > end if it
+/// misses the box.
+struct Clip {
+  double begin = 0.0;
+  double end = 1.0;
+  [[nodiscard]] bool is_empty() const { return begin > end; }
+};
+[[nodiscard]] Clip clip_to_box(const GridRay& ray, const VoxelBox& box);
+
+/// Walks through the cells that a segment crosses, in order, one face at a time (Amanatides & Woo
+/// 1987).
+///
+/// Crossing an edge or a corner steps along all its axes at once, so no cell is visited that the
+/// segment only touches, and the reversed segment visits the same cells. Ends exactly in the last
+/// cell, whatever the rounding. REQUIRES: all coordinates finite and within +-2^30, clip not empty.
+class GridWalk {
+ public:
+  GridWalk(const GridRay& ray, const VoxelBox& box, const Clip& clip);
+
+  [[nodiscard]] VoxelIndex cell() const { return {axes_[0].cell, axes_[1].cell, axes_[2].cell}; }
+  /// Parameter in [0, 1] at which the segment entered cell().
+  [[nodiscard]] double entered_at() const { return entered_at_; }
+  /// Goes on to the next cell; false at the end.
+  bool advance();
+
+ private:
+  struct Axis {
+    double from;       // start [cells]
+    double per_cells;  // 1 / (to - from); not used while remaining is 0
+    std::int32_t cell;
+    std::int32_t step;
+    std::int32_t remaining;  // faces still to be crossed before the last cell
+
+    [[nodiscard]] double next_crossing() const;
+  };
+  static Axis make_axis(double from, double to, const Clip& clip, std::int32_t low,
+                        std::int32_t high);
+
+  std::array<Axis, 3> axes_;
+  std::array<double, 3>
+      crossing_;  // parameter of the next face along each axis; infinity where none is left
+  double entered_at_;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/condition/conditioner.hpp"
+
+namespace swiftlet {
+
+Expected<Conditioner> Conditioner::create(const ConditionOptions& options) {
+  Conditioner conditioner;
+  for (const std::string& name : options.steps) {
+    auto step = find_registered(depth_steps(), name, "depth step");
+    if (!step) return forward_error(std::move(step));
+    conditioner.steps_.push_back(step->make(options));
+  }
+  return conditioner;
+}
+
+const ConditionedDepth& Conditioner::clean(const DepthImage& depth) {
+  depth_.raw = depth.raw;  // same size: copies without allocating
+  depth_.unit_m = depth.unit_m;
+  depth_.ratio = 1;
+  for (const auto& step : steps_) step->apply(depth_);
+  return depth_;
+}
+
+}  // namespace swiftlet

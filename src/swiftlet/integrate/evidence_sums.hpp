@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "swiftlet/map/rolling_map.hpp"
+
+namespace swiftlet {
+
+/// One frame's evidence, summed per cell before it meets the map (method 6).
+///
+/// A single ray gives far less than one step of a byte, so evidence is gathered first, in fixed
+/// point: integers add up to the same sum in any order. Only blocks that rays touched have sums.
+/// Sums are steps * 2^20 in 32 bits: a frame gives a cell at most sqrt(3) whole observations (the
+/// projected area of a cube) of at most 127 steps, a ninth of the range, and one ray at 1 m some
+/// 190 units of the last place.
+class EvidenceSums {
+ public:
+  static constexpr int kFractionBits = 20;
+  static constexpr double kOneStep = 1 << kFractionBits;
+
+  /// Forgets all sums; `window` is where the next ones may fall. Allocates only while the frames
+  /// grow.
+  void begin(const BlockWindow& window);
+
+  /// REQUIRES: voxel lies in the window.
+  void add(const VoxelIndex& voxel, std::int32_t fixed_steps) {
+    sums_of(block_of(voxel))[offset_in_block(voxel)] += fixed_steps;
+  }
+
+  /// Adds every sum to its cell once, saturating. The fraction of a step becomes a whole one with
+  /// that probability, drawn from a hash of cell and frame number: repeatable, unbiased. Returns
+  /// the number of cells with evidence.
+  std::size_t apply(std::uint64_t frame_number, RollingMap& map);
+
+  [[nodiscard]] std::size_t touched_blocks() const { return touched_.size(); }
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  using BlockSums = std::array<std::int32_t, kBlockVoxels>;
+  static constexpr std::uint32_t kUntouched = 0xffffffffU;
+
+  BlockSums& sums_of(const BlockIndex& block) {
+    if (block == last_block_) return sums_[last_slot_];
+    return find_or_touch(block);
+  }
+  BlockSums& find_or_touch(const BlockIndex& block);
+
+  BlockWindow window_{};
+  std::vector<std::uint32_t> slot_of_;  // per block of the window: index into touched_ and sums_
+  std::vector<BlockIndex> touched_;
+  std::vector<BlockSums> sums_;  // all zero between frames
+  BlockIndex last_block_{};      // the block of the last add(): rays stay in one for several cells
+  std::uint32_t last_slot_ = 0;
+};
+
+}  // namespace swiftlet

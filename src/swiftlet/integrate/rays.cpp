@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <cmath>
+#include <vector>
+
+#include "swiftlet/integrate/evidence_sums.hpp"
+#include "swiftlet/integrate/integrator.hpp"
+#include "swiftlet/integrate/ray_method.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// The thesis's way (method 5 and 6): every reading is a ray from the camera through the cell it
+/// was measured in and on to 3 sigma behind it; each cell on the way gets DW * L.
+class RayIntegrator final : public Integrator {
+ public:
+  RayIntegrator(TraceRay trace, double logodds_per_step)
+      : trace_(trace), fixed_per_logodds_(EvidenceSums::kOneStep / logodds_per_step) {}
+
+  IntegrationTally integrate(const DepthView& view, const StereoSensor& sensor,
+                             RollingMap& map) override {
+    const VoxelBox box = voxel_box(map.window());
+    cells_.resize(max_cells(box));
+    sums_.begin(map.window());
+    const Rays rays(view, map.voxel_m());
+
+    IntegrationTally tally;
+    const ConditionedDepth& depth = view.depth;
+    for (int v = 0; v < depth.raw.height(); ++v) {
+      for (int u = 0; u < depth.raw.width(); ++u) {
+        const std::uint16_t raw = depth.raw.at(u, v);
+        if (raw == 0) continue;
+        const PixelOrigin pixel = depth.origin_of(u, v);
+        add_reading(rays, rays.direction(pixel), double{depth.unit_m} * raw, sensor, box);
+        ++tally.readings;
+      }
+    }
+    tally.cells = sums_.apply(view.frame_number, map);
+    tally.blocks = sums_.touched_blocks();
+    return tally;
+  }
+
+  [[nodiscard]] std::size_t memory_bytes() const override {
+    return sums_.memory_bytes() + cells_.capacity() * sizeof(VoxelIndex);
+  }
+
+ private:
+  /// The geometry of one view, in units of cells.
+  struct Rays {
+    Rays(const DepthView& view, double voxel)
+        : intrinsics(view.intrinsics),
+          R_world_camera(view.T_world_camera.rotation().toRotationMatrix()),
+          origin(view.T_world_camera.translation() / voxel),
+          optical_axis(R_world_camera.col(2)),
+          voxel_m(voxel) {}
+
+    /// Direction [cells, world] per metre of depth of the ray through a pixel.
+    [[nodiscard]] Eigen::Vector3d direction(const PixelOrigin& pixel) const {
+      return R_world_camera * intrinsics.back_project(pixel.u, pixel.v, 1.0) / voxel_m;
+    }
+    /// Depth [m, camera] of a cell's centre.
+    [[nodiscard]] double depth_of(const VoxelIndex& c) const {
+      return optical_axis.dot(Eigen::Vector3d(c.x + 0.5, c.y + 0.5, c.z + 0.5) - origin) * voxel_m;
+    }
+
+    const PinholeIntrinsics& intrinsics;
+    Eigen::Matrix3d R_world_camera;
+    Eigen::Vector3d origin;
+    Eigen::Vector3d optical_axis;
+    double voxel_m;
+  };
+
+  void add_reading(const Rays& rays, const Eigen::Vector3d& direction, double z_m,
+                   const StereoSensor& sensor, const VoxelBox& box) {
+    const double sigma_m = sensor.noise().sigma_m(z_m);
+    const double z_end_m = z_m + InverseSensorModel::kBandSigma * sigma_m;
+    const std::size_t n = trace_({rays.origin, rays.origin + z_end_m * direction}, box, cells_);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double z_cell_m = rays.depth_of(cells_[i]);
+      if (z_cell_m <= 0.0) continue;  // the camera's own cell, its centre behind the lens
+      const double logodds = sensor.log_odds(z_cell_m, z_m, sigma_m);
+      if (logodds == 0.0) continue;
+      const double fixed = sensor.weight(z_cell_m) * logodds * fixed_per_logodds_;
+      sums_.add(cells_[i], static_cast<std::int32_t>(std::lrint(fixed)));
+    }
+  }
+
+  TraceRay trace_;
+  double fixed_per_logodds_;
+  EvidenceSums sums_;
+  std::vector<VoxelIndex> cells_;  // of one ray
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<Integrator>> make_rays(const IntegrateOptions& options) {
+  auto method = find_ray_method(options.ray_method);
+  if (!method) return forward_error(std::move(method));
+  return std::make_unique<RayIntegrator>(method->trace, options.logodds_per_step);
+}
+
+}  // namespace swiftlet

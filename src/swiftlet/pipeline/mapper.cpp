@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/pipeline/mapper.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace swiftlet {
+namespace {
+
+constexpr double kMaxCoordinate_m = 1e6;
+
+bool has_readings(const ConditionedDepth& depth) {
+  return std::ranges::any_of(depth.raw.pixels(), [](std::uint16_t d) { return d != 0; });
+}
+
+}  // namespace
+
+Expected<Mapper> Mapper::create(const MapperConfig& config, BlockArchive* archive) {
+  if (auto faults = config.faults(); !faults.empty())
+    return tl::make_unexpected(std::move(faults.front()));
+  auto map = RollingMap::create(config.map);
+  if (!map) return forward_error(std::move(map));
+  auto conditioner = Conditioner::create(config.depth);
+  if (!conditioner) return forward_error(std::move(conditioner));
+  auto integrator = make_integrator(config.integrate);
+  if (!integrator) return forward_error(std::move(integrator));
+  return Mapper(config, archive, std::move(*map), std::move(*conditioner), std::move(*integrator));
+}
+
+Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map,
+               Conditioner conditioner, std::unique_ptr<Integrator> integrator)
+    : config_(config),
+      archive_(archive),
+      map_(std::move(map)),
+      conditioner_(std::move(conditioner)),
+      integrator_(std::move(integrator)) {}
+
+std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) const {
+  const auto& raw = frame.depth.raw;
+  if (raw.width() != frame.intrinsics.width() || raw.height() != frame.intrinsics.height()) {
+    return FrameVerdict::kSizeMismatch;
+  }
+  if (frame.T_world_camera.translation().cwiseAbs().maxCoeff() >= kMaxCoordinate_m) {
+    return FrameVerdict::kPoseOutOfRange;
+  }
+  return std::nullopt;
+}
+
+MapUpdate Mapper::integrate(const Frame& frame) {
+  MapUpdate update;
+  if (const auto verdict = refusal(frame)) {
+    update.verdict = *verdict;
+    return update;
+  }
+  StageTimer timer(update.times);
+  const ConditionedDepth& depth = conditioner_.clean(frame.depth);
+  timer.finish(Stage::kCondition);
+  if (!has_readings(depth)) {
+    update.verdict = FrameVerdict::kNoReadings;
+    return update;
+  }
+  update.shift = map_.recentre(frame.T_world_camera.translation(), archive_);
+  timer.finish(Stage::kRecentre);
+  const StereoSensor sensor(frame.intrinsics, config_.sensor, map_.voxel_m(), depth.ratio);
+  update.tally = integrator_->integrate(
+      {depth, frame.intrinsics, frame.T_world_camera, frame_count_}, sensor, map_);
+  ++frame_count_;
+  timer.finish(Stage::kIntegrate);
+  update.was_published = map_.publish(frame_count_);
+  timer.finish(Stage::kPublish);
+  return update;
+}
+
+}  // namespace swiftlet

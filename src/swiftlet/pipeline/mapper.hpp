@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "swiftlet/condition/conditioner.hpp"
+#include "swiftlet/frame/frame.hpp"
+#include "swiftlet/integrate/integrator.hpp"
+#include "swiftlet/map/rolling_map.hpp"
+#include "swiftlet/pipeline/mapper_config.hpp"
+#include "swiftlet/pipeline/stage_times.hpp"
+
+namespace swiftlet {
+
+/// What became of a frame. Refused frames leave the map as it was.
+enum class FrameVerdict : std::uint8_t {
+  kIntegrated,
+  kNoReadings,      ///< no valid pixel within range
+  kSizeMismatch,    ///< the image is not of the size that its intrinsics speak of
+  kPoseOutOfRange,  ///< farther than 1000 km from the origin
+};
+inline constexpr std::array<std::string_view, 4> kFrameVerdictNames{
+    "integrated", "no_readings", "size_mismatch", "pose_out_of_range"};
+
+/// What one call of integrate() did.
+struct MapUpdate {
+  FrameVerdict verdict = FrameVerdict::kIntegrated;
+  RollingMap::Shift shift;
+  IntegrationTally tally;
+  bool was_published = true;  ///< false: readers hold every snapshot slot, so they see an older map
+  StageTimes times;
+};
+
+/// Depth frames with poses in, occupancy map out.
+///
+/// Thread safety: integrate() from one thread; any number of reader()s on others.
+/// Real time: after the first frames no allocation, lock, file or log call; a frame that moves the
+/// window calls the archive, if there is one.
+class Mapper {
+ public:
+  /// `archive` takes what leaves the window and gives it back; null forgets it. It must outlive the
+  /// mapper. Errors: kInvalidConfig (the first of config.faults()), kOutOfMemory.
+  [[nodiscard]] static Expected<Mapper> create(const MapperConfig& config,
+                                               BlockArchive* archive = nullptr);
+
+  /// Fuses one frame.
+  MapUpdate integrate(const Frame& frame);
+
+  [[nodiscard]] const MapperConfig& config() const { return config_; }
+  /// For the mapping thread.
+  [[nodiscard]] const RollingMap& map() const { return map_; }
+  [[nodiscard]] RollingMap& map() { return map_; }
+  /// For another thread: follows the map while it grows.
+  [[nodiscard]] MapReader reader() const { return map_.reader(); }
+  /// For the mapping thread: the map as it is now; nullopt if readers hold every slot.
+  [[nodiscard]] std::optional<MapSnapshot> snapshot() { return map_.snapshot(frame_count_); }
+
+  /// Frames integrated so far.
+  [[nodiscard]] std::uint64_t frame_count() const { return frame_count_; }
+  /// The window and the integrator's scratch [bytes].
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return map_.memory_bytes() + integrator_->memory_bytes();
+  }
+
+ private:
+  Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map, Conditioner conditioner,
+         std::unique_ptr<Integrator> integrator);
+  [[nodiscard]] std::optional<FrameVerdict> refusal(const Frame& frame) const;
+
+  MapperConfig config_;
+  BlockArchive* archive_;
+  RollingMap map_;
+  Conditioner conditioner_;
+  std::unique_ptr<Integrator> integrator_;
+  std::uint64_t frame_count_ = 0;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/pipeline/mapper_config.hpp"
+
+#include <fmt/format.h>
+
+#include <type_traits>
+
+#include "swiftlet/condition/conditioner.hpp"
+
+namespace swiftlet {
+namespace {
+
+void check(std::vector<Error>& faults, const ConfigField& field, double value) {
+  if (value >= field.min && value <= field.max) return;  // false for NaN, too
+  faults.push_back({ErrorCode::kInvalidConfig, std::string(field.key),
+                    fmt::format("{} cannot be used", value),
+                    fmt::format("choose a value from {} to {}", field.min, field.max)});
+}
+
+void check(std::vector<Error>& faults, const ConfigField& field, const Eigen::Vector3d& value) {
+  for (const double v : value) check(faults, field, v);
+}
+
+void check(std::vector<Error>&, const ConfigField&, const std::string&) {}
+void check(std::vector<Error>&, const ConfigField&, const std::vector<std::string>&) {}
+
+template <class T>
+void keep_fault(std::vector<Error>& faults, std::string_view key, Expected<T>&& result) {
+  if (result) return;
+  faults.push_back(std::move(result).error());
+  if (faults.back().where.empty()) faults.back().where = key;
+  faults.back().code = ErrorCode::kInvalidConfig;
+}
+
+}  // namespace
+
+std::vector<Error> MapperConfig::faults() const {
+  std::vector<Error> faults;
+  visit_config(*this,
+               [&](const ConfigField& field, const auto& value) { check(faults, field, value); });
+  if (!(depth.min_range_m < depth.max_range_m)) {
+    faults.push_back(
+        {ErrorCode::kInvalidConfig, "depth.min_range_m", "is not below depth.max_range_m", {}});
+  }
+  keep_fault(faults, "depth.steps", Conditioner::create(depth));
+  keep_fault(faults, "integrate", make_integrator(integrate));
+  if (faults.empty()) keep_fault(faults, "map", RollingMap::create(map));
+  return faults;
+}
+
+}  // namespace swiftlet
