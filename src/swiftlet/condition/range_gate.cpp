@@ -10,6 +10,9 @@
 namespace swiftlet {
 namespace {
 
+/// In device units: 2 m are 2000 mm, though 0.001 as a float is a little more than a millimetre.
+constexpr double kSlack = 1e-3;
+
 /// Readings outside [min, max] become 0. What lies beyond the far limit is no evidence at all, not
 /// free space up to the limit: a mismatch in the far field must not clear the near one.
 class RangeGate final : public DepthStep {
@@ -18,8 +21,8 @@ class RangeGate final : public DepthStep {
 
   void apply(ConditionedDepth& depth) override {
     const double unit_m = depth.unit_m;
-    const std::uint16_t nearest = device_units(std::ceil(min_m_ / unit_m));
-    const std::uint16_t farthest = device_units(std::floor(max_m_ / unit_m));
+    const std::uint16_t nearest = device_units(std::ceil(min_m_ / unit_m - kSlack));
+    const std::uint16_t farthest = device_units(std::floor(max_m_ / unit_m + kSlack));
     for (std::uint16_t& d : depth.raw.pixels()) {
       const bool is_inside = d >= nearest && d <= farthest;
       d = is_inside ? d : std::uint16_t{0};

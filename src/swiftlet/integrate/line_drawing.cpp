@@ -15,6 +15,7 @@ std::size_t trace_line_drawing(const GridRay& ray, const VoxelBox& box, std::spa
   if (clip.is_empty()) return 0;
   const Eigen::Vector3d direction = ray.to - ray.from;
   const double longest = direction.cwiseAbs().maxCoeff();
+  const Eigen::Vector3d step = direction / longest;  // exactly 1 along the dominant axis
 
   std::size_t count = 0;
   const auto visit = [&](const Eigen::Vector3d& p) {
@@ -24,7 +25,7 @@ std::size_t trace_line_drawing(const GridRay& ray, const VoxelBox& box, std::spa
   const auto first_step = static_cast<std::int64_t>(std::ceil(clip.begin * longest));
   const auto last_step = static_cast<std::int64_t>(std::ceil(clip.end * longest)) - 1;
   for (std::int64_t i = first_step; i <= last_step; ++i) {
-    visit(ray.from + (static_cast<double>(i) / longest) * direction);
+    visit(ray.from + static_cast<double>(i) * step);
   }
   visit(clip.end >= 1.0 ? ray.to : Eigen::Vector3d(ray.from + clip.end * direction));
   return count;

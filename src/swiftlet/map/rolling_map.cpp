@@ -65,9 +65,11 @@ RollingMap::RollingMap(const Options& options, BlockPool pool, const BlockIndex&
       directory_(window_size) {}
 
 BlockIndex RollingMap::first_block_around(const Eigen::Vector3d& p_world) const {
-  const BlockIndex middle = block_of(voxel_containing(p_world, options_.voxel_m));
   const BlockIndex& size = window().size;
-  return {middle.x - size.x / 2, middle.y - size.y / 2, middle.z - size.z / 2};
+  const Eigen::Array3d p_blocks = p_world.array() / (options_.voxel_m * kBlockEdge);
+  const Eigen::Array3d first = (p_blocks - 0.5 * Eigen::Array3d(size.x, size.y, size.z)).round();
+  return {static_cast<std::int32_t>(first.x()), static_cast<std::int32_t>(first.y()),
+          static_cast<std::int32_t>(first.z())};
 }
 
 RollingMap::Shift RollingMap::recentre(const Eigen::Vector3d& p_world, BlockArchive* archive) {

@@ -20,7 +20,7 @@ namespace swiftlet {
 /// Log-odds of a box of space that follows the vehicle (method 7).
 ///
 /// Frame: world. The window is a box of whole 8 x 8 x 8-voxel blocks, at least size_m plus one
-/// block along each axis, so that wherever inside its block the vehicle is, the box of size_m
+/// block along each axis, so that wherever inside a block the vehicle is, the box of size_m
 /// around it is covered. It moves by whole blocks: blocks are the unit of storage, of sharing with
 /// readers and of eviction, so a move by cells would split every block on the rim for no gain; the
 /// spare block pays for the difference. Thread safety: one writer; any readers through reader().
@@ -54,9 +54,9 @@ class RollingMap {
   [[nodiscard]] const BlockWindow& window() const { return directory_.window(); }
 
   /// Keeps the vehicle inside: when it has left the trigger box around the place of the last move
-  /// (or on the first call), moves the window so that the vehicle is in the middle block again.
-  /// What leaves goes to `archive`, what enters comes from it; null drops and forgets. REQUIRES:
-  /// p_world finite and within +-10^6 m.
+  /// (or on the first call), moves the window so that the vehicle is within half a block of its
+  /// middle again. What leaves goes to `archive`, what enters comes from it; null drops and
+  /// forgets. REQUIRES: p_world finite and within +-10^6 m.
   Shift recentre(const Eigen::Vector3d& p_world, BlockArchive* archive);
 
   [[nodiscard]] LogOdds log_odds(const VoxelIndex& voxel) const {

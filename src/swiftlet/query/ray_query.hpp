@@ -14,7 +14,8 @@ namespace swiftlet {
 struct RayHit {
   Occupancy state;    ///< kFree: nothing in the way; kOccupied: matter; kUnknown: never seen
   double distance_m;  ///< along the ray to the face of `voxel`, or the whole length if kFree
-  VoxelIndex voxel;   ///< the first cell that is not free (the last one if kFree)
+  VoxelIndex voxel;   ///< the first cell that is not free; the last one if all are free or the ray
+                      ///< leaves the window
 };
 
 /// Whether unknown space stops a ray. A planner that flies into unknown space says kPasses, and

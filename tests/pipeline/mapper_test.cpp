@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/pipeline/mapper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+#include "support/allocations.hpp"
+#include "support/synthetic.hpp"
+#include "swiftlet/query/occupancy_query.hpp"
+
+namespace swiftlet {
+namespace {
+
+using test::Random;
+
+Mapper new_mapper(const MapperConfig& config = {}) {
+  auto mapper = Mapper::create(config);
+  EXPECT_TRUE(mapper) << mapper.error().text();
+  return std::move(*mapper);
+}
+
+Transform<World, Camera> looking_forward_from(const Eigen::Vector3d& p_world) {
+  return Transform<World, Body>::trusted(Eigen::Quaterniond::Identity(), p_world) *
+         forward_looking_camera();
+}
+
+TEST(Mapper, turns_frames_of_a_wall_into_free_air_and_an_occupied_wall) {
+  MapperConfig config;
+  config.depth.downsample = 1;
+  Mapper mapper = new_mapper(config);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(mapper.integrate(test::wall_frame(test::small_camera(80, 60), 3.1)).verdict,
+              FrameVerdict::kIntegrated);
+  }
+  const auto snapshot = mapper.snapshot();
+  ASSERT_TRUE(snapshot);
+  EXPECT_EQ(snapshot->frame_count(), 5U);
+  EXPECT_EQ(occupancy_at(*snapshot, {1.5, 0.1, 0.1}, config.occupancy), Occupancy::kFree);
+  EXPECT_EQ(occupancy_at(*snapshot, {3.1, 0.1, 0.1}, config.occupancy), Occupancy::kOccupied);
+  EXPECT_EQ(occupancy_at(*snapshot, {4.0, 0.1, 0.1}, config.occupancy), Occupancy::kUnknown);
+  EXPECT_EQ(occupancy_at(*snapshot, {-1.0, 0.1, 0.1}, config.occupancy), Occupancy::kUnknown);
+}
+
+TEST(Mapper, refuses_frames_it_cannot_use_and_leaves_the_map_alone) {
+  Mapper mapper = new_mapper();
+  Frame empty = test::wall_frame(test::small_camera(), 0.0);
+  EXPECT_EQ(mapper.integrate(empty).verdict, FrameVerdict::kNoReadings);
+  EXPECT_EQ(mapper.integrate(test::wall_frame(test::small_camera(), 65.535)).verdict,
+            FrameVerdict::kNoReadings);
+
+  Frame wrong_size = test::wall_frame(test::small_camera(), 1.0);
+  wrong_size.depth.raw.resize(20, 20, 1000);
+  EXPECT_EQ(mapper.integrate(wrong_size).verdict, FrameVerdict::kSizeMismatch);
+  EXPECT_EQ(
+      mapper
+          .integrate(test::wall_frame(test::small_camera(), 1.0, looking_forward_from({2e6, 0, 0})))
+          .verdict,
+      FrameVerdict::kPoseOutOfRange);
+  EXPECT_EQ(mapper.frame_count(), 0U);
+  EXPECT_EQ(count_cells(*mapper.snapshot(), {}).free, 0U);
+}
+
+// Warm-up: one tour of what is to come, so that every buffer has met its largest frame.
+TEST(Mapper, allocates_nothing_after_warm_up_even_when_the_window_moves_and_readers_follow) {
+  Random random;
+  for (const auto& integrator : integrators()) {
+    MapperConfig config;
+    config.depth.downsample = 2;
+    config.map.size_m = {6, 6, 4};
+    config.integrate.integrator = integrator.name;
+    Mapper mapper = new_mapper(config);
+    const MapReader reader = mapper.reader();
+    std::vector<Frame> frames;
+    for (int i = 0; i < 40; ++i) {
+      Frame frame = test::random_frame(random, test::small_camera(80, 60));
+      frame.T_world_camera = Transform<World, Camera>::trusted(frame.T_world_camera.rotation(),
+                                                               Eigen::Vector3d(0.3 * i, 0.0, 0.0));
+      frames.push_back(std::move(frame));
+    }
+    for (const Frame& frame : frames) mapper.integrate(frame);
+
+    std::size_t shifts = 0;
+    const test::AllocationCount allocations;
+    for (const Frame& frame : frames) shifts += mapper.integrate(frame).shift.moved ? 1 : 0;
+    const std::size_t made = allocations.so_far();
+    EXPECT_EQ(made, 0U) << integrator.name;
+    EXPECT_GT(shifts, 5U);
+    EXPECT_TRUE(reader.latest());
+  }
+}
+
+TEST(Mapper, books_the_time_of_every_stage) {
+  Mapper mapper = new_mapper();
+  const MapUpdate update = mapper.integrate(test::wall_frame(test::small_camera(160, 120), 3.0));
+  for (const Nanoseconds t : update.times.of) EXPECT_GE(t.count(), 0);
+  EXPECT_GT(update.times.total().count(), 0);
+}
+
+TEST(MapperConfig, has_no_faults_by_default) { EXPECT_TRUE(MapperConfig{}.faults().empty()); }
+
+TEST(MapperConfig, names_every_field_that_cannot_be_used_at_once) {
+  MapperConfig config;
+  visit_config(config, [](const ConfigField&, auto& value) {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, double>) value = std::numeric_limits<double>::quiet_NaN();
+    if constexpr (std::is_same_v<Value, int>) value = -7;
+    if constexpr (std::is_same_v<Value, Eigen::Vector3d>) value.setConstant(-1.0);
+    if constexpr (std::is_same_v<Value, std::string>) value = "nonsense";
+    if constexpr (std::is_same_v<Value, std::vector<std::string>>) value = {"nonsense"};
+  });
+  std::set<std::string> named;
+  for (const Error& fault : config.faults()) named.insert(fault.where);
+  visit_config(config, [&](const ConfigField& field, const auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) return;
+    EXPECT_TRUE(named.contains(std::string(field.key))) << field.key;
+  });
+  EXPECT_TRUE(named.contains("integrate"));
+}
+
+}  // namespace
+}  // namespace swiftlet
