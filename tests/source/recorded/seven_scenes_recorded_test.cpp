@@ -14,15 +14,17 @@
 namespace swiftlet {
 namespace {
 
-/// A real recording, and how well its frames agree with each other (from its own README, measured
-/// by an independent program; the limits leave a third more).
+/// A real recording, and how well its frames must agree with each other. The first three move by
+/// centimetres from frame to frame: 1.9 to 5.2 mm were measured, also by an independent program
+/// (their README). The last two move by half a metre, so that hidden surfaces set the limit: 18 and
+/// 43 mm. The limits leave a third more.
 struct Recording {
   const char* name;
   std::size_t frames;
   double fx_px;
   std::size_t step;            ///< frame i is compared with frame i + step
   double median_limit_m;       ///< of |depth seen - depth predicted|
-  double within_5cm_at_least;  ///< share of the co-visible pixels
+  double within_5cm_at_least;  ///< share of the pixels that both see
 
   friend std::ostream& operator<<(std::ostream& out, const Recording& r) { return out << r.name; }
 };
@@ -32,11 +34,12 @@ class EveryRecording : public ::testing::TestWithParam<Recording> {
   std::filesystem::path folder_ = test::recorded_folder(GetParam().name);
 };
 
+using Motion = Transform<Camera, Camera>;
+
 /// |depth seen - depth predicted| [m] where both frames have a reading: points of `a` moved into
-/// `b`. Points that `b` sees more than 0.3 m in front of are hidden, not wrong.
-std::vector<double> disagreement_m(const Frame& a, const Frame& b) {
-  const auto T_b_a = b.T_world_camera.inverse() * a.T_world_camera;
-  std::vector<double> off_m;
+/// `b`. Surfaces that hide each other are among them: medians and shares stand that, means do not.
+void add_disagreement_m(const Frame& a, const Frame& b, const Motion& T_b_a,
+                        std::vector<double>& off_m) {
   for (int v = 0; v < a.depth.raw.height(); v += 4) {
     for (int u = 0; u < a.depth.raw.width(); u += 4) {
       if (a.depth.raw.at(u, v) == 0) continue;
@@ -48,11 +51,32 @@ std::vector<double> disagreement_m(const Frame& a, const Frame& b) {
       const bool is_inside =
           ub >= 0 && vb >= 0 && ub < b.depth.raw.width() && vb < b.depth.raw.height();
       if (!is_inside || b.depth.raw.at(ub, vb) == 0) continue;
-      const double off = std::abs(b.depth.depth_m(ub, vb) - p.z());
-      if (off < 0.3) off_m.push_back(off);
+      off_m.push_back(std::abs(b.depth.depth_m(ub, vb) - p.z()));
     }
   }
-  return off_m;
+}
+
+struct Agreement {
+  std::size_t pixels;
+  double median_m;
+  double within_5cm;
+};
+
+/// Over at most some 25 pairs of frames, evenly spread. `reading` turns the true motion between two
+/// frames into the one to be judged.
+Agreement agreement_of(const std::vector<Frame>& frames, std::size_t step,
+                       Motion (*reading)(const Motion& T_b_a)) {
+  const std::size_t stride = std::max<std::size_t>(1, frames.size() / 25);
+  std::vector<double> off_m;
+  for (std::size_t i = 0; i + step < frames.size(); i += stride) {
+    const Frame &a = frames[i], &b = frames[i + step];
+    add_disagreement_m(a, b, reading(b.T_world_camera.inverse() * a.T_world_camera), off_m);
+  }
+  std::ranges::sort(off_m);
+  const auto within = std::ranges::upper_bound(off_m, 0.05) - off_m.begin();
+  const auto pixels = static_cast<double>(std::max<std::size_t>(1, off_m.size()));
+  return {off_m.size(), off_m.empty() ? 0.0 : off_m[off_m.size() / 2],
+          static_cast<double>(within) / pixels};
 }
 
 TEST_P(EveryRecording, is_read_to_its_end_with_unit_poses) {
@@ -72,28 +96,28 @@ TEST_P(EveryRecording, agrees_with_itself_from_frame_to_frame) {
   SWIFTLET_NEEDS_RECORDING(folder_);
   const auto frames = test::read_all("7scenes:" + folder_.string()).frames;
   const std::size_t step = GetParam().step;
-  std::vector<double> off_m;
-  for (std::size_t i = 0; i + step < frames.size(); i += step) {
-    const auto pair = disagreement_m(frames[i], frames[i + step]);
-    off_m.insert(off_m.end(), pair.begin(), pair.end());
+  const auto as_read = agreement_of(frames, step, [](const Motion& T) { return T; });
+  ASSERT_GT(as_read.pixels, 1000U) << "the frames must see common things";
+  EXPECT_LT(as_read.median_m, GetParam().median_limit_m);
+  EXPECT_GT(as_read.within_5cm, GetParam().within_5cm_at_least);
+
+  // A wrong convention would not do: neither standing still nor moving the other way agrees so
+  // well.
+  const auto still = agreement_of(frames, step, [](const Motion&) { return Motion(); });
+  const auto backwards = agreement_of(frames, step, [](const Motion& T) { return T.inverse(); });
+  for (const Agreement& wrong : {still, backwards}) {
+    EXPECT_LT(2 * as_read.median_m, wrong.median_m);
+    EXPECT_GT(as_read.within_5cm, wrong.within_5cm);
   }
-  ASSERT_GT(off_m.size(), 1000U) << "the frames must see common things";
-  std::ranges::sort(off_m);
-  const auto within = std::ranges::upper_bound(off_m, 0.05) - off_m.begin();
-  const double share = static_cast<double>(within) / static_cast<double>(off_m.size());
-  RecordProperty("median_mm", std::to_string(1000 * off_m[off_m.size() / 2]));
-  RecordProperty("within_5cm", std::to_string(share));
-  EXPECT_LT(off_m[off_m.size() / 2], GetParam().median_limit_m);
-  EXPECT_GT(share, GetParam().within_5cm_at_least);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Recorded, EveryRecording,
-    ::testing::Values(Recording{"sevenscenes_room200", 200, 585.0, 1, 0.02, 0.8},
+    ::testing::Values(Recording{"sevenscenes_room200", 200, 585.0, 1, 0.007, 0.95},
                       Recording{"realsense_f200_tabletop50", 50, 615.195, 5, 0.0026, 0.95},
                       Recording{"open3d_redwood5", 5, 525.0, 1, 0.007, 0.95},
-                      Recording{"slambook2_xtion5", 5, 518.0, 1, 0.028, 0.7},
-                      Recording{"sun3d_studyroom5", 5, 570.342, 1, 0.016, 0.75}),
+                      Recording{"slambook2_xtion5", 5, 518.0, 1, 0.058, 0.45},
+                      Recording{"sun3d_studyroom5", 5, 570.342, 1, 0.025, 0.55}),
     [](const auto& recording) { return std::string(recording.param.name); });
 
 }  // namespace
