@@ -29,7 +29,10 @@ class Random {
   double real(double low, double high) {
     return std::uniform_real_distribution(low, high)(engine_);
   }
-  int integer(int low, int high) { return std::uniform_int_distribution(low, high)(engine_); }
+  template <class Integer>
+  Integer integer(Integer low, Integer high) {
+    return std::uniform_int_distribution<Integer>(low, high)(engine_);
+  }
   bool chance(double p) { return std::bernoulli_distribution(p)(engine_); }
   double gaussian(double sigma) { return std::normal_distribution(0.0, sigma)(engine_); }
   Eigen::Vector3d vector(double low, double high) {
@@ -49,5 +52,17 @@ class Random {
   std::mt19937_64 engine_;
   std::uint64_t seed_;
 };
+
+/// Runs a law over `count` seeds; with SWIFTLET_TEST_SEED set, over that one alone.
+template <class Law>
+void for_each_seed(std::uint64_t count, Law law) {
+  const bool is_repeated = std::getenv("SWIFTLET_TEST_SEED") != nullptr;
+  for (std::uint64_t seed = 1; seed <= (is_repeated ? 1 : count); ++seed) {
+    Random random = is_repeated ? Random() : Random(seed);
+    SCOPED_TRACE(random.repeat());
+    law(random);
+    if (::testing::Test::HasFailure()) return;
+  }
+}
 
 }  // namespace swiftlet::test
