@@ -7,15 +7,15 @@
 
 // An exporter is one file, which ends in export_<name>(), and one line here: name, built or not,
 // summary.
-#define SWIFTLET_EXPORTERS(X)                                                                    \
+#define SWIFTLET_EXPORTERS(X)                                                                     \
   X(ply, 1, "occupied cells as points with log-odds, coloured by height (CloudCompare, MeshLab)") \
-  X(pcd, 1, "occupied cells as points, intensity = log-odds (PCL)")                              \
-  X(bt, SWIFTLET_HAS_OCTOMAP, "OctoMap, free and occupied cells")                                \
+  X(pcd, 1, "occupied cells as points, intensity = log-odds (PCL)")                               \
+  X(bt, SWIFTLET_HAS_OCTOMAP, "OctoMap, free and occupied cells")                                 \
   X(ot, SWIFTLET_HAS_OCTOMAP, "OctoMap with the log-odds of each free and occupied cell")
 
 namespace swiftlet {
 
-#define SWIFTLET_DECLARE(name, is_built, summary)                            \
+#define SWIFTLET_DECLARE(name, is_built, summary)                         \
   Status export_##name(const SavedMap& map, const OccupancyThresholds& t, \
                        const std::filesystem::path& out, const ExportProgress& progress);
 SWIFTLET_EXPORTERS(SWIFTLET_DECLARE)

@@ -46,11 +46,11 @@ void remove_quietly(const fs::path& path) {
 Status write_schema(const fs::path& path) {
   auto database = Database::open(path, Database::Mode::kCreate);
   if (!database) return forward_error(std::move(database));
-  return database->run(fmt::format(
-      "PRAGMA page_size = {}; PRAGMA application_id = {}; PRAGMA user_version = {}; "
-      "BEGIN; {}; {}; {}; INSERT INTO seal VALUES(0, 0, 0, 0); COMMIT",
-      MapFile::kPageBytes, MapFile::kApplicationId, MapFile::kSchemaVersion, kBlocksTable,
-      kMetaTable, kSealTable));
+  return database->run(
+      fmt::format("PRAGMA page_size = {}; PRAGMA application_id = {}; PRAGMA user_version = {}; "
+                  "BEGIN; {}; {}; {}; INSERT INTO seal VALUES(0, 0, 0, 0); COMMIT",
+                  MapFile::kPageBytes, MapFile::kApplicationId, MapFile::kSchemaVersion,
+                  kBlocksTable, kMetaTable, kSealTable));
 }
 
 Status check_table(const Database& database, const char* name, const char* expected,
@@ -208,7 +208,8 @@ Status MapFile::prepare_writing() {
       {{&put_, "INSERT OR REPLACE INTO blocks VALUES(?1, ?2, ?3, ?4, ?5, ?6)"},
        {&erase_, "DELETE FROM blocks WHERE z = ?1 AND y = ?2 AND x = ?3"},
        {&put_meta_, "INSERT OR REPLACE INTO meta VALUES(?1, ?2)"},
-       {&put_seal_, "UPDATE seal SET blocks = ?1, block_digest = ?2, meta_digest = ?3 WHERE id = 0"},
+       {&put_seal_,
+        "UPDATE seal SET blocks = ?1, block_digest = ?2, meta_digest = ?3 WHERE id = 0"},
        {&oldest_,
         "SELECT z, y, x, touched, 0, NULL FROM blocks ORDER BY touched, z, y, x LIMIT ?1"},
        {&page_count_, "PRAGMA page_count"},
@@ -244,7 +245,9 @@ Expected<MapSeal> MapFile::seal() {
 }
 
 Expected<bool> MapFile::read(const BlockIndex& index, const VisitRow& visit) {
-  read_.bind(1, std::int64_t{index.z}).bind(2, std::int64_t{index.y}).bind(3, std::int64_t{index.x});
+  read_.bind(1, std::int64_t{index.z})
+      .bind(2, std::int64_t{index.y})
+      .bind(3, std::int64_t{index.x});
   bool was_found = false;
   Status status = visit_rows(read_, [&](const BlockRow& row) {
     was_found = true;

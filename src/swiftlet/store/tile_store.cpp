@@ -35,9 +35,9 @@ Status validate(const TileStoreOptions& o) {
 /// Copies a row into `out`. Errors: kCorruptInput if any of its bits changed.
 Status decode(const BlockRow& row, BlockCodec& codec, VoxelBlock& out) {
   if (row.is_intact() && codec.decompress(row.data, out)) return Done{};
-  return fail(ErrorCode::kCorruptInput, "map",
-              fmt::format("the stored block {} {} {} is damaged", row.index.x, row.index.y,
-                          row.index.z));
+  return fail(
+      ErrorCode::kCorruptInput, "map",
+      fmt::format("the stored block {} {} {} is damaged", row.index.x, row.index.y, row.index.z));
 }
 
 BlockWindow grown(const BlockWindow& w, int by) {
