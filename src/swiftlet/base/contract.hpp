@@ -11,7 +11,7 @@ using ContractHandler = void (*)(const char* condition, const char* message, con
                                  int line);
 
 /// Replaces the handler and returns the old one. Not thread-safe: call it at start-up.
-ContractHandler set_contract_handler(ContractHandler handler);
+ContractHandler set_contract_handler(ContractHandler replacement);
 
 [[noreturn]] void contract_broken(const char* condition, const char* message, const char* file,
                                   int line);

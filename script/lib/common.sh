@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright the Swiftlet authors
+# shellcheck shell=bash
+
+# Sourced by the scripts beside: puts them into the project's folder.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+say() { printf '== %s\n' "$*"; }
+die() {
+  printf 'swiftlet: %s\n' "$*" >&2
+  exit 1
+}
+
+# The exit code of a check that does not apply here, as in automake.
+export skipped=77
+
+# SWIFTLET_JOBS overrides how many compilers run at once; each takes up to 1 GB.
+export jobs=${SWIFTLET_JOBS:-$(nproc)}
+
+# configure_and_build PRESET [TARGET...]
+configure_and_build() {
+  local preset=$1
+  shift
+  if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}; fi
+  cmake --preset "$preset" >"$(log_of "configure-$preset")" || {
+    cat "$(log_of "configure-$preset")"
+    return 1
+  }
+  cmake --build "build/$preset" --parallel "$jobs" ${1:+--target "$@"}
+}
+
+log_of() {
+  mkdir -p build/logs
+  printf 'build/logs/%s.log' "$1"
+}

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright the Swiftlet authors
+
+# Defines the ctest cases of label `consumer`: Swiftlet installed and found, and Swiftlet added as a folder.
+set(consumer_dir ${PROJECT_BINARY_DIR}/consumer)
+set(consumer_common -G ${CMAKE_GENERATOR} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER})
+
+# consumer_case(NAME [CONFIGURE ARGUMENT...]): configures, builds and runs the consumer.
+function(consumer_case name)
+  add_test(NAME consumer.${name}.configure
+           COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_SOURCE_DIR}/consumer -B ${consumer_dir}/${name} --fresh
+                   ${consumer_common} ${ARGN})
+  add_test(NAME consumer.${name}.build COMMAND ${CMAKE_COMMAND} --build ${consumer_dir}/${name} --parallel 2)
+  add_test(NAME consumer.${name}.core COMMAND ${consumer_dir}/${name}/use_core)
+  add_test(NAME consumer.${name}.all COMMAND ${consumer_dir}/${name}/use_all)
+  set_tests_properties(consumer.${name}.configure PROPERTIES FIXTURES_SETUP consumer_${name}_configured)
+  set_tests_properties(consumer.${name}.build PROPERTIES FIXTURES_REQUIRED consumer_${name}_configured
+                                                         FIXTURES_SETUP consumer_${name}_built)
+  set_tests_properties(consumer.${name}.core consumer.${name}.all PROPERTIES FIXTURES_REQUIRED consumer_${name}_built)
+  set_tests_properties(consumer.${name}.configure consumer.${name}.build consumer.${name}.core consumer.${name}.all
+                       PROPERTIES LABELS consumer)
+endfunction()
+
+if(SWIFTLET_INSTALL)
+  # Into a fresh folder: a file that was forgotten must not be found from an earlier install.
+  add_test(NAME consumer.clear COMMAND ${CMAKE_COMMAND} -E rm -rf ${consumer_dir}/prefix)
+  add_test(NAME consumer.install
+           COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${consumer_dir}/prefix)
+  set_tests_properties(consumer.clear PROPERTIES LABELS consumer FIXTURES_SETUP consumer_cleared)
+  set_tests_properties(consumer.install PROPERTIES LABELS consumer FIXTURES_REQUIRED consumer_cleared
+                                                   FIXTURES_SETUP consumer_installed)
+  consumer_case(find_package -DCMAKE_PREFIX_PATH=${consumer_dir}/prefix)
+  set_tests_properties(consumer.find_package.configure PROPERTIES FIXTURES_REQUIRED consumer_installed)
+endif()
+consumer_case(add_subdirectory -DSWIFTLET_FOLDER=${PROJECT_SOURCE_DIR})
