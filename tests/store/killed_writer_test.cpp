@@ -102,7 +102,7 @@ TEST(KilledWriter, leaves_a_consistent_file_with_everything_up_to_the_last_batch
   Random random;
   for (int round = 0; round < 10; ++round) {
     Folder folder;
-    const auto delay = std::chrono::microseconds(random.integer(0, 300'000));
+    const auto delay = std::chrono::microseconds(random.integer(0, 150'000));
     const std::uint64_t committed = kill_flight(folder / "a.swl", delay);
     EXPECT_TRUE(check_map(folder / "a.swl").empty()) << random.repeat();
     EXPECT_GE(load_map(folder / "a.swl")->frames(), committed);

@@ -74,12 +74,12 @@ TEST(MapFile, no_flipped_bit_gives_a_wrong_block_or_a_crash) {
   const Blocks truth = write_map(folder / "a.swl", random);
   const auto whole = test::bytes_of(folder / "a.swl");
   int noticed = 0;
-  constexpr int kRounds = 900;
+  constexpr int kRounds = 500;
   for (int i = 0; i < kRounds; ++i) {
     const int size = static_cast<int>(whole.size());
     // All of the file's header, the headers of the pages, and anywhere.
     const int at = i < 100   ? i
-                   : i < 400 ? random.integer(0, size / 4096 - 1) * 4096 + random.integer(0, 200)
+                   : i < 250 ? random.integer(0, size / 4096 - 1) * 4096 + random.integer(0, 200)
                              : random.integer(0, size - 1);
     auto damaged = whole;
     const auto byte = static_cast<std::size_t>(at);

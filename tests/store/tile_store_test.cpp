@@ -257,43 +257,6 @@ TEST(TileStore, policy_drop_keeps_the_window_and_nothing_else) {
   EXPECT_EQ(test::blocks_in(folder / "a.swl"), test::blocks_in(*last)) << random.repeat();
 }
 
-TEST(TileStore, refuses_to_overwrite_unless_told_and_then_starts_empty) {
-  Folder folder;
-  {
-    auto store = make_store(folder / "a.swl");
-    store->evict({1, 2, 3}, test::block_full_of(9), 1);
-  }
-  const auto before = test::bytes_of(folder / "a.swl");
-  const auto refused = TileStore::create(folder / "a.swl", 0.1);
-  ASSERT_FALSE(refused.has_value());
-  EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
-  EXPECT_EQ(test::bytes_of(folder / "a.swl"), before);
-  ASSERT_TRUE(make_store(folder / "a.swl", {.overwrite = true})->close());
-  EXPECT_TRUE(test::blocks_in(folder / "a.swl").empty());
-}
-
-TEST(TileStore, says_where_it_cannot_write) {
-  for (const char* place : {"/proc/a.swl", "/nowhere/at/all/a.swl"}) {
-    const auto store = TileStore::create(place, 0.1);
-    ASSERT_FALSE(store.has_value()) << place;
-    EXPECT_EQ(store.error().code, ErrorCode::kIo);
-    EXPECT_NE(store.error().text().find(place), std::string::npos) << store.error().text();
-    EXPECT_FALSE(store.error().remedy.empty());
-  }
-}
-
-TEST(TileStore, refuses_options_that_cannot_be_meant) {
-  Folder folder;
-  for (const TileStoreOptions& bad :
-       {TileStoreOptions{.max_bytes = 1000}, TileStoreOptions{.batch_interval = 0ms},
-        TileStoreOptions{.batch_interval = 1001ms}, TileStoreOptions{.pending_blocks = 0}}) {
-    const auto store = TileStore::create(folder / "a.swl", 0.1, bad);
-    ASSERT_FALSE(store.has_value());
-    EXPECT_EQ(store.error().code, ErrorCode::kInvalidConfig);
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.swl"));
-  }
-}
-
 TEST(TileStore, a_map_can_be_read_while_it_is_written) {
   Folder folder;
   Random random;

@@ -97,7 +97,7 @@ Status export_bt(const SavedMap& map, const OccupancyThresholds& thresholds,
   auto file = OutputFile::create(out);
   if (!file) return forward_error(std::move(file));
   file->write(header("# Octomap OcTree binary file", **tree));
-  if ((*tree)->size() > 0) (*tree)->writeBinaryData(file->stream());
+  if ((*tree)->size() > 0) (*tree)->writeBinaryNode(file->stream(), (*tree)->getRoot());
   return file->commit();
 }
 
