@@ -3,8 +3,8 @@
 # Copyright the Swiftlet authors
 """Sums the JUnit files that ctest wrote into one line, "N passed, N failed, N skipped".
 
-Exit code 1 if anything failed, or nothing passed. A report that is missing counts as one failure, and so does each
-of --failures (stages that broke without a test to blame) and --skips (stages that do not apply here).
+Exit code 1 if anything failed, or nothing passed. A report that is missing or empty counts as one failure, and so
+does each of --failures (stages that broke without a test to blame) and --skips (stages that do not apply here).
 """
 
 import argparse
@@ -38,6 +38,9 @@ def count(reports, failures=0, skips=0):
             totals["failed"] += 1
             failed.append(f"{report}: no report ({error})")
             continue
+        if not cases:
+            totals["failed"] += 1
+            failed.append(f"{report.stem}: ran no tests")
         for case in cases:
             totals[verdict(case)] += 1
             if verdict(case) == "failed":

@@ -43,6 +43,9 @@ class CountTests(unittest.TestCase):
     def test_a_missing_report_is_a_failure(self):
         self.assertEqual(count([PASSED], None), (1, "1 passed, 1 failed, 0 skipped"))
 
+    def test_a_run_without_tests_is_a_failure(self):
+        self.assertEqual(count([PASSED], []), (1, "1 passed, 1 failed, 0 skipped"))
+
     def test_a_broken_stage_is_a_failure(self):
         self.assertEqual(count([PASSED], options=["--failures", "2"]), (1, "1 passed, 2 failed, 0 skipped"))
 
