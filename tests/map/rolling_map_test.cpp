@@ -23,7 +23,9 @@ using Blocks = std::unordered_map<BlockIndex, VoxelBlock, BlockHash>;
 /// An archive in memory.
 class MemoryArchive final : public BlockArchive {
  public:
-  void evict(const BlockIndex& index, const VoxelBlock& block) override { blocks[index] = block; }
+  void evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t) override {
+    blocks[index] = block;
+  }
   bool restore(const BlockIndex& index, VoxelBlock& out) override {
     const auto found = blocks.find(index);
     if (found != blocks.end()) out = found->second;
