@@ -99,7 +99,8 @@ def fault_of(file, layer_name, layers, header, source_root):
         return f'includes {header} by a relative path; write "swiftlet/{layer_name}/{header}"'
     if layer.is_core and header in IO_HEADERS:
         return f"core layer {layer_name} does no I/O, but includes <{header}>"
-    is_public = layer.is_core or (file.suffix == ".hpp" and layer_name != "app")
+    is_installed = file.suffix == ".hpp" and not file.name.endswith("_private.hpp")
+    is_public = layer.is_core or (is_installed and layer_name != "app")
     if is_public and not is_standard(header) and not PUBLIC_THIRD_PARTY.fullmatch(header):
         who = f"core layer {layer_name}" if layer.is_core else "an installed header"
         return f"{who} may not include <{header}>; keep it in a .cpp behind the library's edge"

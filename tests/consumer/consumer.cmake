@@ -5,20 +5,22 @@
 set(consumer_dir ${PROJECT_BINARY_DIR}/consumer)
 set(consumer_common -G ${CMAKE_GENERATOR} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER})
 
-# consumer_case(NAME [CONFIGURE ARGUMENT...]): configures, builds and runs the consumer.
+# consumer_case(NAME PROGRAMS use_core ... CONFIGURE -D...): configures, builds and runs programs of the consumer.
 function(consumer_case name)
+  cmake_parse_arguments(CASE "" "" "PROGRAMS;CONFIGURE" ${ARGN})
   add_test(NAME consumer.${name}.configure
            COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_SOURCE_DIR}/consumer -B ${consumer_dir}/${name} --fresh
-                   ${consumer_common} ${ARGN})
-  add_test(NAME consumer.${name}.build COMMAND ${CMAKE_COMMAND} --build ${consumer_dir}/${name} --parallel 2)
-  add_test(NAME consumer.${name}.core COMMAND ${consumer_dir}/${name}/use_core)
-  add_test(NAME consumer.${name}.all COMMAND ${consumer_dir}/${name}/use_all)
+                   ${consumer_common} ${CASE_CONFIGURE})
+  add_test(NAME consumer.${name}.build COMMAND ${CMAKE_COMMAND} --build ${consumer_dir}/${name} --parallel 2
+                   --target ${CASE_PROGRAMS})
   set_tests_properties(consumer.${name}.configure PROPERTIES FIXTURES_SETUP consumer_${name}_configured)
   set_tests_properties(consumer.${name}.build PROPERTIES FIXTURES_REQUIRED consumer_${name}_configured
                                                          FIXTURES_SETUP consumer_${name}_built)
-  set_tests_properties(consumer.${name}.core consumer.${name}.all PROPERTIES FIXTURES_REQUIRED consumer_${name}_built)
-  set_tests_properties(consumer.${name}.configure consumer.${name}.build consumer.${name}.core consumer.${name}.all
-                       PROPERTIES LABELS consumer)
+  set_tests_properties(consumer.${name}.configure consumer.${name}.build PROPERTIES LABELS consumer)
+  foreach(program IN LISTS CASE_PROGRAMS)
+    add_test(NAME consumer.${name}.${program} COMMAND ${consumer_dir}/${name}/${program})
+    set_tests_properties(consumer.${name}.${program} PROPERTIES FIXTURES_REQUIRED consumer_${name}_built LABELS consumer)
+  endforeach()
 endfunction()
 
 if(SWIFTLET_INSTALL)
@@ -29,7 +31,8 @@ if(SWIFTLET_INSTALL)
   set_tests_properties(consumer.clear PROPERTIES LABELS consumer FIXTURES_SETUP consumer_cleared)
   set_tests_properties(consumer.install PROPERTIES LABELS consumer FIXTURES_REQUIRED consumer_cleared
                                                    FIXTURES_SETUP consumer_installed)
-  consumer_case(find_package -DCMAKE_PREFIX_PATH=${consumer_dir}/prefix)
+  consumer_case(find_package PROGRAMS use_core use_all CONFIGURE -DCMAKE_PREFIX_PATH=${consumer_dir}/prefix)
   set_tests_properties(consumer.find_package.configure PROPERTIES FIXTURES_REQUIRED consumer_installed)
 endif()
-consumer_case(add_subdirectory -DSWIFTLET_FOLDER=${PROJECT_SOURCE_DIR})
+# The core alone: the rest would compile once more what the build before has shown to compile.
+consumer_case(add_subdirectory PROGRAMS use_core CONFIGURE -DSWIFTLET_FOLDER=${PROJECT_SOURCE_DIR})

@@ -9,7 +9,7 @@
 
 #include "swiftlet/base/narrow.hpp"
 #include "swiftlet/sim/ply_reader.hpp"
-#include "swiftlet/sim/scene_sections.hpp"
+#include "swiftlet/sim/scene_sections_private.hpp"
 
 namespace swiftlet::sim {
 namespace {

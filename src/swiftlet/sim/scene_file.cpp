@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "swiftlet/sim/built_in_scenes.hpp"
-#include "swiftlet/sim/scene_sections.hpp"
+#include "swiftlet/sim/scene_sections_private.hpp"
 
 namespace swiftlet::sim {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/sim/scene_sections.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "swiftlet/sim/scene_sections_private.hpp"
 
 namespace swiftlet::sim {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/sim/yaml_section.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "swiftlet/sim/yaml_section_private.hpp"
 
 namespace swiftlet::sim {
 namespace {

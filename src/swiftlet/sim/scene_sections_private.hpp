@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "swiftlet/sim/scene.hpp"
-#include "swiftlet/sim/yaml_section.hpp"
+#include "swiftlet/sim/yaml_section_private.hpp"
 
 namespace swiftlet::sim {
 
