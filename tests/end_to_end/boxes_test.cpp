@@ -37,6 +37,16 @@ Mapper map_scene(const char* address) {
   return std::move(*mapper);
 }
 
+// Flown once for all tests.
+const Mapper& large_box() {
+  static const Mapper mapper = map_scene("sim:large_box");
+  return mapper;
+}
+const Mapper& small_box() {
+  static const Mapper mapper = map_scene("sim:small_box");
+  return mapper;
+}
+
 /// The cells (y) of a row across the view that are in a state.
 std::vector<int> cells_in_row(const Mapper& mapper, int x, Occupancy state) {
   std::vector<int> found;
@@ -48,7 +58,7 @@ std::vector<int> cells_in_row(const Mapper& mapper, int x, Occupancy state) {
 }
 
 TEST(LargeBox, is_exactly_two_occupied_cells_wide_and_its_outer_cells_stay_free) {
-  const Mapper mapper = map_scene("sim:large_box");
+  const Mapper& mapper = large_box();
   EXPECT_EQ(cells_in_row(mapper, kFaceRow, Occupancy::kOccupied), (std::vector<int>{-1, 0}));
   EXPECT_EQ(mapper.config().occupancy.classify(mapper.map().log_odds({kFaceRow, -2, kCameraLayer})),
             Occupancy::kFree);
@@ -57,7 +67,7 @@ TEST(LargeBox, is_exactly_two_occupied_cells_wide_and_its_outer_cells_stay_free)
 }
 
 TEST(LargeBox, hides_the_wall_behind_it_completely) {
-  const Mapper mapper = map_scene("sim:large_box");
+  const Mapper& mapper = large_box();
   for (int x = kFaceRow + 2; x <= kWallRow + 2; ++x) {
     for (const int y : {-1, 0})
       EXPECT_EQ(mapper.map().log_odds({x, y, kCameraLayer}), kUnknownCell) << x << " " << y;
@@ -65,7 +75,7 @@ TEST(LargeBox, hides_the_wall_behind_it_completely) {
 }
 
 TEST(LargeBox, shows_the_thesis_s_profile_along_the_optical_axis) {
-  const Mapper mapper = map_scene("sim:large_box");
+  const Mapper& mapper = large_box();
   // Free falls towards 0, the peak is at the surface, 127 behind it.
   for (int x = 3; x < kFaceRow; ++x)
     EXPECT_LT(mapper.map().log_odds({x, 0, kCameraLayer}), 10) << x;
@@ -78,12 +88,12 @@ TEST(LargeBox, shows_the_thesis_s_profile_along_the_optical_axis) {
 }
 
 TEST(SmallBox, is_exactly_two_occupied_cells_wide) {
-  const Mapper mapper = map_scene("sim:small_box");
+  const Mapper& mapper = small_box();
   EXPECT_EQ(cells_in_row(mapper, kFaceRow, Occupancy::kOccupied), (std::vector<int>{-1, 0}));
 }
 
 TEST(SmallBox, lets_the_wall_behind_be_partly_seen) {
-  const Mapper mapper = map_scene("sim:small_box");
+  const Mapper& mapper = small_box();
   // At the wall its shadow is 25 cm * 3.5 / 2 = 44 cm wide: within columns -2 .. 1 of 20 cm, which
   // are seen at their rims; columns -1 and 0 are hidden there, but seen nearer by, where the shadow
   // is narrower than they are.

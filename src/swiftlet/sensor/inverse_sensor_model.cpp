@@ -14,10 +14,6 @@ namespace {
 
 const double kSqrtTwoPi = std::sqrt(2.0 * std::numbers::pi);
 
-/// exp(-d^2 / (2 sigma^2)) is below 1e-13 here, so eq. 3.3 is p_min to more digits than a cell can
-/// hold.
-constexpr double kClearlyInFrontSigma = 8.0;
-
 double logit(double p) { return std::log(p / (1.0 - p)); }
 
 }  // namespace

@@ -24,6 +24,10 @@ class InverseSensorModel {
   };
   /// Behind the reading by more than this many sigma there is no evidence.
   static constexpr double kBandSigma = 3.0;
+  /// In front of the reading by more than this many sigma the evidence is free_log_odds(): there
+  /// exp(-d^2 / (2 sigma^2)) is below 1e-13, so eq. 3.3 is p_min to more digits than a cell can
+  /// hold.
+  static constexpr double kClearlyInFrontSigma = 8.0;
 
   /// REQUIRES: importance_m > 0, 0 < p_min < 0.5 < p_max < 1.
   explicit InverseSensorModel(const Options& options);

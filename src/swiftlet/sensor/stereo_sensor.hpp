@@ -44,6 +44,9 @@ class StereoSensor {
   /// sigma of millimetres would fall between the centres of 20 cm cells and be in none of them.
   [[nodiscard]] double log_odds(double z_cell_m, double z_reading_m, double sigma_m) const {
     const double offset_m = z_cell_m - z_reading_m;
+    const bool is_clearly_in_front =
+        offset_m < -half_voxel_m_ - InverseSensorModel::kClearlyInFrontSigma * sigma_m;
+    if (is_clearly_in_front) return model_.free_log_odds();  // most cells of a ray
     const double gap_m = std::max(0.0, std::abs(offset_m) - half_voxel_m_);
     return model_.log_odds(std::copysign(gap_m, offset_m), sigma_m);
   }
