@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 namespace swiftlet {
 
@@ -41,31 +40,11 @@ GridWalk::Axis GridWalk::make_axis(double from, double to, const Clip& clip, std
   return {from, 1.0 / (to - from), first, last >= first ? 1 : -1, std::abs(last - first)};
 }
 
-// Computed anew from the face each time: adding up increments, as the original does, drifts over
-// long rays.
-double GridWalk::Axis::next_crossing() const {
-  if (remaining == 0) return std::numeric_limits<double>::infinity();
-  return (static_cast<double>(cell + (step > 0 ? 1 : 0)) - from) * per_cells;
-}
-
 GridWalk::GridWalk(const GridRay& ray, const VoxelBox& box, const Clip& clip)
     : axes_{make_axis(ray.from.x(), ray.to.x(), clip, box.first.x, box.last.x),
             make_axis(ray.from.y(), ray.to.y(), clip, box.first.y, box.last.y),
             make_axis(ray.from.z(), ray.to.z(), clip, box.first.z, box.last.z)},
       crossing_{axes_[0].next_crossing(), axes_[1].next_crossing(), axes_[2].next_crossing()},
       entered_at_(clip.begin) {}
-
-bool GridWalk::advance() {
-  const double t = std::min({crossing_[0], crossing_[1], crossing_[2]});
-  if (t == std::numeric_limits<double>::infinity()) return false;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (crossing_[i] > t) continue;
-    axes_[i].cell += axes_[i].step;
-    --axes_[i].remaining;
-    crossing_[i] = axes_[i].next_crossing();
-  }
-  entered_at_ = t;
-  return true;
-}
 
 }  // namespace swiftlet

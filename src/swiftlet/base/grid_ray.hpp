@@ -4,9 +4,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "swiftlet/base/voxel_index.hpp"
 
@@ -53,10 +55,24 @@ class GridWalk {
   [[nodiscard]] VoxelIndex cell() const { return {axes_[0].cell, axes_[1].cell, axes_[2].cell}; }
   /// Parameter in [0, 1] at which the segment entered cell().
   [[nodiscard]] double entered_at() const { return entered_at_; }
-  /// Goes on to the next cell; false at the end.
-  bool advance();
+  /// Goes on to the next cell; false at the end. (In the header: this is the inner loop of every
+  /// ray.)
+  bool advance() {
+    const double t = std::min(std::min(crossing_[0], crossing_[1]), crossing_[2]);
+    if (t == kNever) return false;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      if (crossing_[i] > t) continue;
+      axes_[i].cell += axes_[i].step;
+      --axes_[i].remaining;
+      crossing_[i] = axes_[i].next_crossing();
+    }
+    entered_at_ = t;
+    return true;
+  }
 
  private:
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
   struct Axis {
     double from;       // start [cells]
     double per_cells;  // 1 / (to - from); not used while remaining is 0
@@ -64,7 +80,12 @@ class GridWalk {
     std::int32_t step;
     std::int32_t remaining;  // faces still to be crossed before the last cell
 
-    [[nodiscard]] double next_crossing() const;
+    // Computed anew from the face each time: adding up increments, as the original does, drifts
+    // over long rays.
+    [[nodiscard]] double next_crossing() const {
+      if (remaining == 0) return kNever;
+      return (static_cast<double>(cell + (step > 0 ? 1 : 0)) - from) * per_cells;
+    }
   };
   static Axis make_axis(double from, double to, const Clip& clip, std::int32_t low,
                         std::int32_t high);
