@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+#include "swiftlet/app/command.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kFailed = 1;
+constexpr int kWrongUsage = 2;
+
+int exit_code(const Faults& faults) {
+  const auto is_usage = [](const Error& e) {
+    return e.code == ErrorCode::kUsage || e.code == ErrorCode::kInvalidConfig;
+  };
+  if (faults.empty()) return kDone;
+  return std::ranges::any_of(faults, is_usage) ? kWrongUsage : kFailed;
+}
+
+int report(const Faults& faults) {
+  for (const Error& fault : faults) fmt::print(stderr, "swiftlet: {}\n", fault.text());
+  return exit_code(faults);
+}
+
+/// Help and version are asked for by the user and are no faults, though CLI11 throws them too.
+int report(const CLI::App& program, const CLI::ParseError& stop) {
+  if (stop.get_exit_code() == 0) return program.exit(stop);
+  std::string place = "command line";
+  std::string help = "swiftlet --help";
+  for (const CLI::App* chosen : program.get_subcommands()) {
+    place = chosen->get_name();
+    help = fmt::format("swiftlet {} --help", chosen->get_name());
+  }
+  return report({{ErrorCode::kUsage, place, stop.what(), fmt::format("try '{}'", help)}});
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  CLI::App program{"Swiftlet: real-time 3-D occupancy maps for small drones", "swiftlet"};
+  program.set_version_flag("--version", "swiftlet " SWIFTLET_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Examples:\n"
+      "  swiftlet map sim:apartment -o flat.swl     fly a simulated rig and map what it sees\n"
+      "  swiftlet render flat.swl -o flat.png       look at the map\n"
+      "  swiftlet list                              everything there is to choose from\n"
+      "'swiftlet COMMAND --help' tells more.");
+  Action chosen;
+  for (const auto& command : commands()) {
+    CLI::App* parser =
+        program.add_subcommand(std::string(command.name), std::string(command.summary));
+    parser->callback([&chosen, work = command.make(*parser)] { chosen = work; });
+  }
+  try {
+    program.parse(argc, argv);
+    return report(chosen());
+  } catch (const CLI::ParseError& stop) {
+    return report(program, stop);
+  } catch (const std::exception& unforeseen) {  // out of memory, above all: still one clear line
+    return report({{ErrorCode::kOutOfMemory, {}, unforeseen.what(), {}}});
+  }
+}
+
+}  // namespace swiftlet::app
