@@ -21,9 +21,10 @@ enum class FrameLoss : std::uint8_t {
   kNoPose,       ///< no pose brackets its time: before the first, after the last, or none at all
   kPoseGap,      ///< the bracketing poses lie too far apart to interpolate between
   kPoseRefused,  ///< its pose is not finite, not unit, or not trusted by the tracker
+  kOutOfOrder,   ///< its time is not after that of the image before it
 };
-inline constexpr std::array<std::string_view, 3> kFrameLossNames{"no_pose", "pose_gap",
-                                                                 "pose_refused"};
+inline constexpr std::array<std::string_view, 4> kFrameLossNames{"no_pose", "pose_gap",
+                                                                 "pose_refused", "out_of_order"};
 
 /// Frames that came out of a source, and those that did not, by reason.
 struct FrameTally {
@@ -49,9 +50,9 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The next frame in time order; nullopt at the end. Frames without a trustworthy pose are
-  /// skipped and counted. Errors: kCorruptInput, kIo, with file and line; the source is then at its
-  /// end.
+  /// The next frame, later than every one before; nullopt at the end. Frames without a trustworthy
+  /// pose are skipped and counted. Errors: kCorruptInput, kIo, with file and line; the source is
+  /// then at its end.
   [[nodiscard]] virtual Expected<std::optional<Frame>> next() = 0;
 
   [[nodiscard]] virtual const SourceInfo& info() const = 0;

@@ -24,6 +24,11 @@ void Rig::push(const PoseSample& pose) {
 }
 
 void Rig::push(DepthFrame depth) {
+  if (last_depth_stamp_ && depth.stamp <= *last_depth_stamp_) {
+    ++tally_.of(FrameLoss::kOutOfOrder);
+    return;
+  }
+  last_depth_stamp_ = depth.stamp;
   if (waiting_.size() == options_.max_waiting) {
     ++tally_.of(FrameLoss::kNoPose);
     waiting_.pop_front();

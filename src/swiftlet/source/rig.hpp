@@ -30,8 +30,8 @@ struct PoseSample {
 class Rig {
  public:
   struct Options {
-    Transform<Body, Camera> T_body_camera;  ///< the mount (extrinsics)
-    PoseTrack::Options track;
+    Transform<Body, Camera> T_body_camera{};  ///< the mount (extrinsics)
+    PoseTrack::Options track{};
     std::uint8_t min_confidence = 1;  ///< poses below are refused
     std::size_t max_waiting = 8;      ///< depth images that may wait for their pose
   };
@@ -39,6 +39,7 @@ class Rig {
   explicit Rig(const Options& options);
 
   void push(const PoseSample& pose);
+  /// Depth images come in time order; one that does not is lost (counted).
   void push(DepthFrame depth);
   /// No more poses will come: what still waits is decided now.
   void finish() { is_finished_ = true; }
@@ -51,7 +52,8 @@ class Rig {
  private:
   Options options_;
   PoseTrack track_;
-  std::deque<DepthFrame> waiting_;
+  std::deque<DepthFrame> waiting_;  // ascending stamps, all different
+  std::optional<Stamp> last_depth_stamp_;
   FrameTally tally_;
   bool is_finished_ = false;
 };

@@ -4,17 +4,57 @@
 #include "swiftlet/source/sources.hpp"
 
 #include <array>
+#include <string>
 
-// A source is one file and one line here. Its opener is null where its part was not built.
-#define SWIFTLET_SOURCES(X)
+// A source is one file and one line here: whether it is built (1, 0 or SWIFTLET_HAS_...), the name
+// the user types, the function at the end of its file, and a sentence for `swiftlet list`.
+#define SWIFTLET_SOURCES(X)                                                                     \
+  X(1, "7scenes", open_seven_scenes_source, "folder of depth images and poses by frame number") \
+  X(1, "tum", open_tum_source, "TUM RGB-D folder: depth.txt and groundtruth.txt, joined by time")
+
+// An opener whose part was not built must not even be named: there is nothing to link.
+#define SWIFTLET_IF_BUILT_1(opener) opener
+#define SWIFTLET_IF_BUILT_0(opener) nullptr
+#define SWIFTLET_IF_BUILT(built, opener) SWIFTLET_IF_BUILT_##built(opener)
 
 namespace swiftlet {
+
+#define SWIFTLET_DECLARE(built, name, opener, summary) \
+  Expected<FrameSourcePtr> opener(std::string_view rest);
+SWIFTLET_SOURCES(SWIFTLET_DECLARE)
+#undef SWIFTLET_DECLARE
+
 namespace {
 
-constexpr std::array<Registered<OpenSource>, 0> kSources{};
+#define SWIFTLET_ROW(built, name, opener, summary) \
+  Registered<OpenSource>{name, summary, SWIFTLET_IF_BUILT(built, opener)},
+constexpr auto kSources = std::to_array({SWIFTLET_SOURCES(SWIFTLET_ROW)});
+#undef SWIFTLET_ROW
+
+tl::unexpected<Error> no_kind(std::string_view address) {
+  const std::string place = address.empty() ? "PLACE" : std::string(address);
+  std::string examples;
+  for (const auto& source : kSources)
+    examples += (examples.empty() ? "" : " or ") + std::string(source.name) + ":" + place;
+  return fail(ErrorCode::kUsage, std::string(address), "it does not say what kind of source it is",
+              "write KIND:PLACE, as in " + examples);
+}
 
 }  // namespace
 
 std::span<const Registered<OpenSource>> sources() { return kSources; }
+
+Expected<FrameSourcePtr> open_source(std::string_view address) {
+  const std::size_t colon = address.find(':');
+  if (colon == std::string_view::npos) return no_kind(address);
+  auto source = find_registered(sources(), address.substr(0, colon), "source");
+  if (!source) return forward_error(std::move(source));
+  if (source->make == nullptr) {
+    return fail(ErrorCode::kUnsupported, std::string(source->name),
+                "this build of Swiftlet has no such source",
+                "install what it needs and configure again; `swiftlet list` tells what is missing");
+  }
+  return source->make(address.substr(colon + 1));
+}
 
 }  // namespace swiftlet

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "swiftlet/source/folder_camera.hpp"
+#include "swiftlet/source/frame_source.hpp"
+#include "swiftlet/source/matrix_file.hpp"
+#include "swiftlet/source/world_axes.hpp"
+
+// Microsoft 7-Scenes, and everything else that is written in its layout: one folder with
+//   frame-000123.depth.png   16-bit millimetres, 0 and 65535 = no reading
+//   frame-000123.pose.txt    4 x 4 camera-to-world, optical axes, metres
+//   camera-intrinsics.txt    optional; default 585 585 320 240
+// Source: Shotton et al. 2013 and the data set's readme. World: the first camera's optical axes.
+
+namespace swiftlet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kContent =
+    "frame-XXXXXX.depth.png and frame-XXXXXX.pose.txt, as 7-Scenes does";
+constexpr std::string_view kPrefix = "frame-";
+constexpr std::string_view kDepthSuffix = ".depth.png";
+constexpr std::string_view kPoseSuffix = ".pose.txt";
+constexpr DepthPngFormat kFormat{.unit_m = 0.001F, .is_full_scale_invalid = true};
+constexpr PinholePreset kKinect{585.0, 585.0, 320.0, 240.0};
+constexpr double kKinectBaseline_m = 0.075;
+constexpr std::int64_t kFrameRate_hz = 30;
+constexpr WorldAxes kAxes = WorldAxes::kOptical;
+
+struct RecordedFrame {
+  std::uint32_t number;
+  fs::path depth;
+  fs::path pose;
+
+  /// The layout has no clock: frames are numbered at 30 Hz, and numbers may skip.
+  [[nodiscard]] Stamp stamp() const { return Stamp{number * 1'000'000'000LL / kFrameRate_hz}; }
+};
+
+std::optional<RecordedFrame> frame_of(const fs::path& file) {
+  const std::string name = file.filename().string();
+  if (!name.starts_with(kPrefix) || !name.ends_with(kDepthSuffix)) return std::nullopt;
+  const char* const end = name.data() + name.size() - kDepthSuffix.size();
+  std::uint32_t number = 0;
+  const auto parsed = std::from_chars(name.data() + kPrefix.size(), end, number);
+  if (parsed.ec != std::errc{} || parsed.ptr != end) return std::nullopt;
+  const std::string stem(name.data(), end);
+  return RecordedFrame{number, file, file.parent_path() / (stem + std::string(kPoseSuffix))};
+}
+
+Expected<std::vector<RecordedFrame>> list_frames(const fs::path& folder) {
+  std::vector<RecordedFrame> frames;
+  std::error_code refused;
+  bool has_sequences = false;
+  for (fs::directory_iterator entry(folder, refused), end; !refused && entry != end;
+       entry.increment(refused)) {
+    if (auto frame = frame_of(entry->path())) frames.push_back(std::move(*frame));
+    has_sequences |= entry->path().filename().string().starts_with("seq-");
+  }
+  if (refused) return fail(ErrorCode::kIo, folder.string(), "cannot be read: " + refused.message());
+  if (frames.empty()) {
+    return fail(ErrorCode::kNotFound, folder.string(), "it holds no depth images",
+                has_sequences ? "name one of its sequences, as in " + (folder / "seq-01").string()
+                              : fmt::format("it should hold {}", kContent));
+  }
+  std::ranges::sort(frames, {}, &RecordedFrame::number);
+  return frames;
+}
+
+/// What can be known before the first frame is delivered.
+Status check_frames(const std::vector<RecordedFrame>& frames) {
+  for (const RecordedFrame& frame : frames) {
+    std::error_code refused;
+    if (!fs::exists(frame.pose, refused)) {
+      return fail(ErrorCode::kNotFound, frame.pose.string(), "the depth image has no pose",
+                  "add it, or remove " + frame.depth.string());
+    }
+  }
+  const auto twin = std::ranges::adjacent_find(frames, {}, &RecordedFrame::number);
+  if (twin != frames.end()) {
+    return fail(ErrorCode::kCorruptInput, twin->depth.string(),
+                "another file has the same frame number: " + std::next(twin)->depth.string(),
+                "remove one of them");
+  }
+  return Done{};
+}
+
+Expected<Transform<World, Camera>> read_pose(const fs::path& path) {
+  auto matrix = read_matrix4(path);
+  if (!matrix) return forward_error(std::move(matrix));
+  auto T_native_camera = Transform<NativeWorld, Camera>::from_matrix(*matrix);
+  if (!T_native_camera) {
+    return fail(T_native_camera.error().code, path.string(), T_native_camera.error().what,
+                "a pose is camera-to-world, R t / 0 0 0 1 in metres; correct it, or remove it "
+                "together with its depth image");
+  }
+  return world_from(kAxes) * *T_native_camera;
+}
+
+class SevenScenesSource final : public FrameSource {
+ public:
+  SevenScenesSource(std::string_view folder, std::vector<RecordedFrame> frames,
+                    const FolderCamera& camera)
+      : frames_(std::move(frames)), camera_(camera) {
+    info_ = {.uri = "7scenes:" + std::string(folder),
+             .native_up_axis = std::string(up_axis(kAxes)),
+             .frame_count = frames_.size(),
+             .baseline_m = kKinectBaseline_m};
+  }
+
+  Expected<std::optional<Frame>> next() override {
+    if (next_ == frames_.size()) return std::nullopt;
+    auto frame = read(frames_[next_]);
+    if (!frame) {
+      next_ = frames_.size();
+      return forward_error(std::move(frame));
+    }
+    ++next_;
+    ++tally_.delivered;
+    return std::move(*frame);
+  }
+
+  const SourceInfo& info() const override { return info_; }
+  const FrameTally& tally() const override { return tally_; }
+
+ private:
+  [[nodiscard]] Expected<Frame> read(const RecordedFrame& recorded) const {
+    auto T_world_camera = read_pose(recorded.pose);
+    if (!T_world_camera) return forward_error(std::move(T_world_camera));
+    auto seen = camera_.read(recorded.depth, recorded.stamp());
+    if (!seen) return forward_error(std::move(seen));
+    return Frame{seen->stamp, std::move(seen->depth), seen->intrinsics, *T_world_camera};
+  }
+
+  std::vector<RecordedFrame> frames_;  // ascending numbers, all different
+  FolderCamera camera_;
+  SourceInfo info_;
+  FrameTally tally_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+Expected<FrameSourcePtr> open_seven_scenes_source(std::string_view folder) {
+  if (auto usable = check_folder(folder, kContent); !usable)
+    return forward_error(std::move(usable));
+  auto frames = list_frames(folder);
+  if (!frames) return forward_error(std::move(frames));
+  if (auto usable = check_frames(*frames); !usable) return forward_error(std::move(usable));
+  auto camera = FolderCamera::open(folder, frames->front().depth, kFormat, kKinect);
+  if (!camera) return forward_error(std::move(camera));
+  return std::make_unique<SevenScenesSource>(folder, std::move(*frames), *camera);
+}
+
+}  // namespace swiftlet
