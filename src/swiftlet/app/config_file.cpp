@@ -25,7 +25,8 @@ using Settings = std::vector<Setting>;
 
 std::vector<std::string> known_keys() {
   std::vector<std::string> keys;
-  visit_config(MapperConfig{},
+  const MapperConfig defaults;
+  visit_config(defaults,
                [&](const ConfigField& field, const auto&) { keys.emplace_back(field.key); });
   return keys;
 }
@@ -60,9 +61,9 @@ tl::expected<Settings, Faults> settings_of(const std::string& yaml, const std::s
                   "write groups of parameters; 'swiftlet list parameters' tells which there are")});
     }
   } catch (const YAML::Exception& e) {
-    return tl::make_unexpected(Faults{invalid(fmt::format("{}:{}", place, e.mark.line + 1),
-                                              "this is not YAML: " + e.msg,
-                                              "mend the line or the one before it")});
+    return tl::make_unexpected(
+        Faults{invalid(fmt::format("{}:{}", place, e.mark.line + 1), "this is not YAML: " + e.msg,
+                       "mend the line or the one before it")});
   }
   return settings;
 }
@@ -136,7 +137,8 @@ Expected<std::string> read_text(const std::string& path) {
                 "check the path and that you may read it");
   }
   std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) return fail(ErrorCode::kIo, path, "the config file cannot be read", "is it a folder?");
+  if (file.bad())
+    return fail(ErrorCode::kIo, path, "the config file cannot be read", "is it a folder?");
   return text;
 }
 

@@ -13,8 +13,7 @@ namespace swiftlet::app {
 Nanoseconds percentile(std::vector<Nanoseconds> values, double share) {
   SWIFTLET_REQUIRE(share > 0.0 && share <= 1.0, "a percentile lies above 0 and up to 1");
   if (values.empty()) return Nanoseconds{0};
-  const auto rank =
-      static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
   std::ranges::nth_element(values, place);
   return *place;

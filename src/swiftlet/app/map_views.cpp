@@ -46,9 +46,10 @@ Expected<Picture> draw_view(std::string_view name, const LoadedMap& map,
   const double width = side_px(box->first.y, box->last.y) + side_px(box->first.x, box->last.x);
   const double height = width + side_px(box->first.z, box->last.z);
   if (width * height > kMaxPixels) {
-    return fail(ErrorCode::kUsage, "--scale",
-                fmt::format("the picture would have about {:.0f} megapixels", width * height * 1e-6),
-                "choose fewer pixels per cell");
+    return fail(
+        ErrorCode::kUsage, "--scale",
+        fmt::format("the picture would have about {:.0f} megapixels", width * height * 1e-6),
+        "choose fewer pixels per cell");
   }
   return view->make(map, *box, options);
 }

@@ -28,7 +28,8 @@ Expected<std::vector<std::uint8_t>> encoded(const Picture& picture, const std::s
   std::vector<std::uint8_t> png(bytes);
   if (png_image_write_to_memory(&header, png.data(), &bytes, 0, picture.pixels().data(), 0,
                                 nullptr) == 0) {
-    return fail(ErrorCode::kIo, path, std::string("the picture cannot be encoded: ") + header.message,
+    return fail(ErrorCode::kIo, path,
+                std::string("the picture cannot be encoded: ") + header.message,
                 "try a smaller --scale");
   }
   png.resize(bytes);

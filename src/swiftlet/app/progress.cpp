@@ -22,8 +22,8 @@ constexpr const char* kClearLine = "\r\033[K";
 
 std::string progress_text(const ProgressState& s) {
   const double rate = s.elapsed_s > 0.0 ? static_cast<double>(s.done) / s.elapsed_s : 0.0;
-  std::string text = s.total ? fmt::format("{}/{} frames", s.done, *s.total)
-                             : fmt::format("{} frames", s.done);
+  std::string text =
+      s.total ? fmt::format("{}/{} frames", s.done, *s.total) : fmt::format("{} frames", s.done);
   text += fmt::format(", {:.1f} fps", rate);
   if (s.total && rate > 0.0 && *s.total > s.done) {
     const double left_s = static_cast<double>(*s.total - s.done) / rate;
@@ -36,8 +36,7 @@ std::string progress_text(const ProgressState& s) {
 
 std::string progress_bar(const ProgressState& s, int width) {
   if (!s.total || *s.total == 0) return {};
-  const double share =
-      std::min(1.0, static_cast<double>(s.done) / static_cast<double>(*s.total));
+  const double share = std::min(1.0, static_cast<double>(s.done) / static_cast<double>(*s.total));
   const auto filled = static_cast<std::size_t>(share * width);
   std::string bar(filled, '=');
   if (filled < static_cast<std::size_t>(width)) bar += '>';

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -21,8 +22,8 @@ struct Face {
   double brightness;  // light from above and behind the left shoulder
 };
 /// Seen from behind, from the right and from above: these three faces look at the viewer.
-const std::array<Face, 3> kFaces{
-    Face{{0, 0, 1}, 1.0}, Face{{-1, 0, 0}, 0.80}, Face{{0, -1, 0}, 0.60}};
+const std::array<Face, 3> kFaces{Face{{0, 0, 1}, 1.0}, Face{{-1, 0, 0}, 0.80},
+                                 Face{{0, -1, 0}, 0.60}};
 
 /// Isometric projection: the world in cells to pixels of the enlarged picture.
 class IsoCamera {
