@@ -8,8 +8,6 @@ namespace swiftlet {
 Stamp later(Stamp start, [[maybe_unused]] double s) {
 #if defined(MAKES_A_TIME_OF_A_DOUBLE)
   return s;
-#elif defined(NARROWS_A_DOUBLE_TO_NANOSECONDS)
-  return {s};
 #elif defined(ADDS_TWO_TIMES)
   return start + start;
 #else

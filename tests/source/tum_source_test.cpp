@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/recordings.hpp"
+#include "support/seeds.hpp"
+
+namespace swiftlet {
+namespace {
+
+using test::read_all;
+using test::write_file;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr std::int64_t kEpoch_s = 1305031102;
+
+/// A camera that moves along the world's x at 1 m/s and turns about the world's z at 1 rad/s,
+/// looking along y: interpolation must hit it exactly. Starts at kEpoch_s.
+Transform<World, Camera> true_pose(double t_s) {
+  Eigen::Matrix3d R_looking_along_y;
+  R_looking_along_y << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(t_s, Eigen::Vector3d::UnitZ()));
+  return Transform<World, Camera>::trusted(turn * Eigen::Quaterniond(R_looking_along_y),
+                                           {t_s, 2, 1});
+}
+
+std::string pose_line(double t_s) {
+  const auto T = true_pose(t_s);
+  const auto& q = T.rotation();
+  const auto& p = T.translation();
+  return fmt::format("{}.{:06} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", kEpoch_s,
+                     std::llround(t_s * 1e6), p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+}
+
+/// Images every 33.3 ms from 0 to 0.5 s, poses every 10 ms from 0.1 to 0.9 s.
+class Tum : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory(folder_ / "depth");
+    write_file(folder_ / "camera-intrinsics.txt", test::kSmallCamera);
+    for (int i = 0; i < 16; ++i) image(i * 1.0 / 30);
+    for (int i = 10; i <= 90; ++i) poses_ += pose_line(0.01 * i);
+    write_lists();
+  }
+  void image(double t_s) {
+    const auto stamp = fmt::format("{}.{:06}", kEpoch_s, std::llround(t_s * 1e6));
+    test::write_png(folder_ / ("depth/" + stamp + ".png"), test::flat(10000));
+    images_ += stamp + " depth/" + stamp + ".png\n";
+  }
+  void write_lists() {
+    write_file(folder_ / "depth.txt", images_);
+    write_file(folder_ / "groundtruth.txt", poses_);
+  }
+  [[nodiscard]] std::string address() const { return "tum:" + folder_.path().string(); }
+  [[nodiscard]] static std::size_t lost(FrameTally tally, FrameLoss loss) { return tally.of(loss); }
+
+  test::TempFolder folder_;
+  std::string images_ = "# depth maps\n# file: 'rgbd_dataset.bag'\n# timestamp filename\n";
+  std::string poses_ = "# ground truth trajectory\n# timestamp tx ty tz qx qy qz qw\n";
+};
+
+void expect_true_poses(const std::vector<Frame>& frames) {
+  for (const Frame& frame : frames) {
+    const double t_s = seconds(frame.stamp - Stamp{kEpoch_s * 1'000'000'000});
+    const auto expected = true_pose(t_s);
+    EXPECT_LT((frame.T_world_camera.translation() - expected.translation()).norm(), 1e-9) << t_s;
+    EXPECT_LT(frame.T_world_camera.rotation().angularDistance(expected.rotation()), 1e-7) << t_s;
+  }
+}
+
+TEST_F(Tum, gives_every_image_the_pose_of_its_own_time) {
+  const auto reading = read_all(address());
+  EXPECT_EQ(reading.error, "");
+  ASSERT_EQ(reading.frames.size(), 13U);
+  EXPECT_EQ(lost(reading.tally, FrameLoss::kNoPose), 3U) << "three images before the first pose";
+  EXPECT_EQ(reading.frames.front().stamp.ns, kEpoch_s * 1'000'000'000 + 100'000'000);
+  expect_true_poses(reading.frames);
+}
+
+TEST_F(Tum, counts_5000_steps_to_the_metre) {
+  const auto reading = read_all(address());
+  ASSERT_FALSE(reading.frames.empty());
+  EXPECT_FLOAT_EQ(reading.frames[0].depth.depth_m(0, 0), 2.0F);
+  const auto source = open_source(address());
+  EXPECT_EQ((*source)->info().frame_count, 16U);
+  EXPECT_EQ((*source)->info().native_up_axis, "+z");
+}
+
+TEST_F(Tum, does_not_care_for_the_order_of_its_lists) {
+  test::for_each_seed(3, [&](test::Rng& rng) {
+    const auto shuffled = [&](const std::string& text) {
+      std::vector<std::string> lines;
+      for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = text.find('\n', begin) + 1;
+        lines.push_back(text.substr(begin, end - begin));
+        begin = end;
+      }
+      std::ranges::shuffle(lines, rng);
+      std::string joined;
+      for (const auto& line : lines) joined += line;
+      return joined;
+    };
+    write_file(folder_ / "depth.txt", shuffled(images_));
+    write_file(folder_ / "groundtruth.txt", shuffled(poses_));
+    const auto reading = read_all(address());
+    EXPECT_EQ(reading.frames.size(), 13U) << reading.error;
+    expect_true_poses(reading.frames);
+  });
+}
+
+TEST_F(Tum, takes_windows_line_ends_blank_lines_and_comments_anywhere) {
+  images_ += "\r\n   \n#1305031102.9 depth/none.png\n";
+  std::string dos;
+  for (const char c : poses_) dos += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  poses_ = dos;
+  write_lists();
+  EXPECT_EQ(read_all(address()).frames.size(), 13U);
+}
+
+TEST_F(Tum, keeps_the_first_of_two_lines_of_one_time_and_counts_the_other) {
+  image(0.3);
+  image(0.3);
+  poses_ += fmt::format("{}.200000 9 9 9 0 0 0 1\n", kEpoch_s);
+  write_lists();
+  const auto reading = read_all(address());
+  EXPECT_EQ(reading.frames.size(), 13U) << reading.error;
+  EXPECT_EQ(lost(reading.tally, FrameLoss::kOutOfOrder), 2U);
+  EXPECT_EQ(reading.tally.poses_refused, 1U);
+  expect_true_poses(reading.frames);
+}
+
+TEST_F(Tum, loses_and_counts_the_images_inside_a_gap_of_the_ground_truth) {
+  poses_.clear();
+  for (const int i : {0, 5, 10, 35, 40, 45, 50}) poses_ += pose_line(0.01 * i);
+  write_lists();
+  const auto reading = read_all(address());
+  // 250 ms without a pose: the images at 0.133 ... 0.333 s.
+  EXPECT_EQ(lost(reading.tally, FrameLoss::kPoseGap), 7U);
+  EXPECT_EQ(reading.frames.size(), 9U);
+  expect_true_poses(reading.frames);
+}
+
+TEST_F(Tum, loses_and_counts_the_images_after_the_last_pose) {
+  poses_.clear();
+  for (int i = 0; i <= 20; ++i) poses_ += pose_line(0.01 * i);
+  write_lists();
+  const auto reading = read_all(address());
+  EXPECT_EQ(reading.frames.size(), 7U) << "0 to 0.2 s";
+  EXPECT_EQ(lost(reading.tally, FrameLoss::kNoPose), 9U);
+}
+
+TEST_F(Tum, refuses_lists_that_do_not_overlap_in_time_showing_both_ranges) {
+  write_file(folder_ / "groundtruth.txt", "100.5 0 0 0 0 0 0 1\n101.25 0 0 0 0 0 0 1\n");
+  EXPECT_THAT(read_all(address()).error, AllOf(HasSubstr("1305031102.000 to 1305031102.500 s"),
+                                               HasSubstr("100.500 to 101.250 s")));
+}
+
+TEST_F(Tum, refuses_a_malformed_line_naming_file_and_line) {
+  const std::pair<const char*, const char*> bad_poses[] = {
+      {"1305031102.5 0 0 0 0 0 0\n", "8 columns"},
+      {"1305031102.5 0 0 0 0 0 0 1 7\n", "8 columns"},
+      {"soon 0 0 0 0 0 0 1\n", "'soon' is not a time"},
+      {"1305031102.5 0 x 0 0 0 0 1\n", "'x' is not a number"},
+      {"1305031102.5 0 nan 0 0 0 0 1\n", "not finite"},
+      {"1305031102.5 0 0 0 nan 0 0 1\n", "not finite"},
+      {"1305031102.5 0 0 0 0 0 0 0\n", "not of unit length"},
+      {"1305031102.5 0 0 0 0.5 0.5 0.5 0.6\n", "not of unit length"},
+  };
+  for (const auto& [line, complaint] : bad_poses) {
+    write_file(folder_ / "groundtruth.txt", "# one\n\n" + std::string(line) + pose_line(0.2));
+    EXPECT_THAT(read_all(address()).error,
+                AllOf(HasSubstr("groundtruth.txt:3"), HasSubstr(complaint)));
+  }
+  write_lists();
+  write_file(folder_ / "depth.txt", images_ + "1305031103.0\n");
+  EXPECT_THAT(read_all(address()).error, AllOf(HasSubstr("depth.txt:20"), HasSubstr("2 columns")));
+}
+
+TEST_F(Tum, refuses_a_folder_that_lacks_a_list_or_lists_nothing) {
+  for (const char* list : {"depth.txt", "groundtruth.txt"}) {
+    write_file(folder_ / list, "# nothing\n");
+    EXPECT_THAT(read_all(address()).error, AllOf(HasSubstr(list), HasSubstr("lists nothing")));
+    std::filesystem::remove(folder_ / list);
+    EXPECT_THAT(read_all(address()).error, AllOf(HasSubstr(list), HasSubstr("no such file")));
+    write_lists();
+  }
+}
+
+TEST_F(Tum, stops_at_a_missing_or_wrong_image_naming_it) {
+  const auto file = folder_ / "depth/1305031102.300000.png";
+  test::write_png(file, test::flat(1), test::PngKind::kRgb8);
+  EXPECT_THAT(read_all(address()).error,
+              AllOf(HasSubstr("1305031102.300000.png"), HasSubstr("8-bit RGB")));
+  std::filesystem::remove(file);
+  const auto reading = read_all(address());
+  EXPECT_EQ(reading.frames.size(), 6U) << "0.1 to 0.267 s";
+  EXPECT_THAT(reading.error, AllOf(HasSubstr("1305031102.300000.png"), HasSubstr("no such file")));
+}
+
+TEST_F(Tum, takes_full_scale_for_no_reading) {
+  for (const std::uint16_t value : {std::uint16_t{0}, std::uint16_t{65535}}) {
+    test::write_png(folder_ / "depth/1305031102.100000.png", test::flat(value));
+    const auto reading = read_all(address());
+    ASSERT_EQ(reading.frames.size(), 13U);
+    for (const auto pixel : reading.frames[0].depth.raw.pixels()) EXPECT_EQ(pixel, 0);
+  }
+}
+
+TEST(TumPreset, follows_the_name_of_the_folder) {
+  const std::pair<const char*, double> cameras[] = {{"rgbd_dataset_freiburg1_xyz", 517.3},
+                                                    {"rgbd_dataset_freiburg2_desk", 520.9},
+                                                    {"fr3_office", 535.4},
+                                                    {"my_flight", 525.0}};
+  test::TempFolder parent;
+  for (const auto& [name, fx_px] : cameras) {
+    const auto folder = parent / name;
+    std::filesystem::create_directory(folder);
+    test::write_png(folder / "0.png", Image<std::uint16_t>(640, 480, 5000));
+    write_file(folder / "depth.txt", "1.0 0.png\n");
+    write_file(folder / "groundtruth.txt", "0.95 0 0 0 0 0 0 1\n1.05 0 0 0 0 0 0 1\n");
+    for (const auto& address : {"tum:" + folder.string(), "tum:" + folder.string() + "/"}) {
+      const auto reading = read_all(address);
+      ASSERT_EQ(reading.frames.size(), 1U) << reading.error;
+      EXPECT_EQ(reading.frames[0].intrinsics.fx(), fx_px) << address;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet
