@@ -24,7 +24,7 @@ struct Listed {
   std::string name;
   std::string summary;
   bool is_built = true;
-  std::string needs;
+  std::string needs{};
 };
 
 template <class Make>

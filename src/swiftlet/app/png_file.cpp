@@ -3,14 +3,12 @@
 
 #include <png.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
+#include <string>
 #include <vector>
 
 #include "swiftlet/app/picture.hpp"
 #include "swiftlet/base/narrow.hpp"
+#include "swiftlet/store/output_file.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -18,14 +16,14 @@ namespace {
 static_assert(sizeof(Colour) == 3, "a row of colours is a row of a PNG");
 
 /// libpng's simplified interface reports errors as values: no setjmp.
-Expected<std::vector<std::uint8_t>> encoded(const Picture& picture, const std::string& path) {
+Expected<std::string> encoded(const Picture& picture, const std::string& path) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   header.width = to<png_uint_32>(picture.width());
   header.height = to<png_uint_32>(picture.height());
   header.format = PNG_FORMAT_RGB;
   png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(header);
-  std::vector<std::uint8_t> png(bytes);
+  std::string png(bytes, '\0');
   if (png_image_write_to_memory(&header, png.data(), &bytes, 0, picture.pixels().data(), 0,
                                 nullptr) == 0) {
     return fail(ErrorCode::kIo, path,
@@ -41,22 +39,10 @@ Expected<std::vector<std::uint8_t>> encoded(const Picture& picture, const std::s
 Status write_png(const Picture& picture, const std::string& path) {
   auto png = encoded(picture, path);
   if (!png) return forward_error(std::move(png));
-  const std::string unfinished = path + ".part";
-  const auto refused = [&]() -> Status {
-    const std::string reason = std::strerror(errno);
-    std::remove(unfinished.c_str());
-    return fail(ErrorCode::kIo, path, "the picture cannot be written: " + reason,
-                "choose another place with -o");
-  };
-  errno = 0;
-  std::FILE* file = std::fopen(unfinished.c_str(), "wb");
-  if (file == nullptr) return refused();
-  const bool is_written = std::fwrite(png->data(), 1, png->size(), file) == png->size();
-  const bool is_closed = std::fclose(file) == 0;  // a full disk may tell only now
-  if (!is_written || !is_closed || std::rename(unfinished.c_str(), path.c_str()) != 0) {
-    return refused();
-  }
-  return Done{};
+  auto file = OutputFile::create(path);
+  if (!file) return forward_error(std::move(file));
+  file->write(*png);
+  return file->commit();
 }
 
 }  // namespace swiftlet::app

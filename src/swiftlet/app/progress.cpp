@@ -44,10 +44,9 @@ std::string progress_bar(const ProgressState& s, int width) {
   return fmt::format("[{}] {:3.0f} % ", bar, std::floor(share * 100.0));
 }
 
-Progress::Progress(std::optional<std::size_t> total, bool is_silent) : total_(total) {
-  style_ = isatty(STDERR_FILENO) == 1 ? Style::kBar : Style::kLines;
-  if (is_silent) style_ = Style::kSilent;
-  if (style_ == Style::kLines) next_ += kLine;
+Progress::Progress(std::optional<std::size_t> total)
+    : is_terminal_(isatty(STDERR_FILENO) == 1), total_(total) {
+  if (!is_terminal_) next_ += kLine;
 }
 
 double Progress::elapsed_s() const {
@@ -57,9 +56,9 @@ double Progress::elapsed_s() const {
 void Progress::update(std::size_t done) {
   done_ = done;
   const auto now = Clock::now();
-  if (style_ == Style::kSilent || now < next_) return;
+  if (now < next_) return;
   const ProgressState state{done, total_, elapsed_s()};
-  if (style_ == Style::kBar) {
+  if (is_terminal_) {
     fmt::print(stderr, "{}{}{}", kClearLine, progress_bar(state, kBarWidth), progress_text(state));
     std::fflush(stderr);
     next_ = now + kRedraw;
@@ -71,8 +70,8 @@ void Progress::update(std::size_t done) {
 
 void Progress::finish() {
   const ProgressState state{done_, total_, elapsed_s()};
-  if (style_ == Style::kBar) fmt::print(stderr, "{}", kClearLine);
-  if (style_ == Style::kLines) fmt::print(stderr, "{}\n", progress_text(state));
+  if (is_terminal_) fmt::print(stderr, "{}", kClearLine);
+  if (!is_terminal_) fmt::print(stderr, "{}\n", progress_text(state));
 }
 
 }  // namespace swiftlet::app

@@ -24,10 +24,10 @@ struct ProgressState {
 [[nodiscard]] std::string progress_bar(const ProgressState& state, int width);
 
 /// Shows progress on standard error: a bar that redraws itself on a terminal, a plain line every
-/// few seconds into a file or pipe, nothing if silent.
+/// few seconds into a file or pipe.
 class Progress {
  public:
-  Progress(std::optional<std::size_t> total, bool is_silent);
+  explicit Progress(std::optional<std::size_t> total);
 
   /// Cheap enough for every frame.
   void update(std::size_t done);
@@ -36,10 +36,9 @@ class Progress {
   [[nodiscard]] double elapsed_s() const;
 
  private:
-  enum class Style { kSilent, kBar, kLines };
   using Clock = std::chrono::steady_clock;
 
-  Style style_;
+  const bool is_terminal_;
   std::optional<std::size_t> total_;
   std::size_t done_ = 0;
   Clock::time_point start_ = Clock::now();
