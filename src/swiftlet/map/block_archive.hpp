@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstdint>
+
 #include "swiftlet/map/block_window.hpp"
 #include "swiftlet/map/voxel_block.hpp"
 
@@ -14,8 +16,10 @@ class BlockArchive {
  public:
   virtual ~BlockArchive() = default;
 
-  /// Takes a block that leaves the window. The block is valid during the call only.
-  virtual void evict(const BlockIndex& index, const VoxelBlock& block) = 0;
+  /// Takes a block that leaves the window. The block is valid during the call only. `version` is
+  /// what MapSnapshot::version() tells of this state, so an archive that also follows snapshots
+  /// knows which of the two is newer.
+  virtual void evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) = 0;
 
   /// Copies the newest state of a block into `out`, bit for bit as it was evicted; false if it was
   /// never stored.

@@ -90,7 +90,7 @@ RollingMap::Shift RollingMap::recentre(const Eigen::Vector3d& p_world, BlockArch
     const BlockId id = directory_.at(entry);
     if (id == kNoBlock) return;
     if (archive != nullptr) {
-      archive->evict(leaving, store_->pool().block(id));
+      archive->evict(leaving, store_->pool().block(id), store_->pool().born(id));
       ++shift.blocks_evicted;
     }
     store_->drop(id);

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/store/map_file.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <system_error>
+#include <utility>
+
+#include "swiftlet/base/narrow.hpp"
+#include "swiftlet/store/block_codec.hpp"
+
+namespace swiftlet {
+namespace {
+
+namespace fs = std::filesystem;
+using sqlite::Database;
+using sqlite::Statement;
+
+// The schema is compared with these letters when a map is opened, so a damaged one is not followed.
+constexpr const char* kBlocksTable =
+    "CREATE TABLE blocks(z INTEGER NOT NULL, y INTEGER NOT NULL, x INTEGER NOT NULL, "
+    "touched INTEGER NOT NULL, checksum INTEGER NOT NULL, data BLOB NOT NULL, "
+    "PRIMARY KEY(z, y, x)) WITHOUT ROWID";
+constexpr const char* kMetaTable =
+    "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID";
+constexpr const char* kSealTable =
+    "CREATE TABLE seal(id INTEGER PRIMARY KEY, blocks INTEGER NOT NULL, "
+    "block_digest INTEGER NOT NULL, meta_digest INTEGER NOT NULL)";
+// Made only for maps with a byte cap, which need to find the oldest blocks.
+constexpr const char* kAgeIndex =
+    "CREATE INDEX IF NOT EXISTS blocks_by_age ON blocks(touched, z, y, x)";
+
+std::int64_t as_signed(std::uint64_t v) { return std::bit_cast<std::int64_t>(v); }
+std::uint64_t as_unsigned(std::int64_t v) { return std::bit_cast<std::uint64_t>(v); }
+
+fs::path beside(const fs::path& path, const char* suffix) { return path.string() + suffix; }
+
+void remove_quietly(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove(path, ignored);
+}
+
+Status write_schema(const fs::path& path) {
+  auto database = Database::open(path, Database::Mode::kCreate);
+  if (!database) return forward_error(std::move(database));
+  return database->run(fmt::format(
+      "PRAGMA page_size = {}; PRAGMA application_id = {}; PRAGMA user_version = {}; "
+      "BEGIN; {}; {}; {}; INSERT INTO seal VALUES(0, 0, 0, 0); COMMIT",
+      MapFile::kPageBytes, MapFile::kApplicationId, MapFile::kSchemaVersion, kBlocksTable,
+      kMetaTable, kSealTable));
+}
+
+Status check_table(const Database& database, const char* name, const char* expected,
+                   const fs::path& path) {
+  auto sql = database.text(fmt::format("SELECT sql FROM sqlite_schema WHERE name = '{}'", name));
+  if (!sql) return forward_error(std::move(sql));
+  if (*sql == expected) return Done{};
+  return fail(ErrorCode::kCorruptInput, path.string(),
+              fmt::format("the table '{}' of the map is not as it should be", name));
+}
+
+BlockRow row_of(const Statement& s) {
+  // A damaged coordinate may be any number; the checksum finds the ones that wrapped around here.
+  const auto coordinate = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
+  return {{coordinate(s.integer(2)), coordinate(s.integer(1)), coordinate(s.integer(0))},
+          s.integer(3),
+          as_unsigned(s.integer(4)),
+          s.bytes(5)};
+}
+
+Status visit_rows(Statement& statement, const MapFile::VisitRow& visit) {
+  Status status = Done{};
+  for (;;) {
+    auto has_row = statement.step();
+    if (!has_row) status = forward_error(std::move(has_row));
+    if (!status || !*has_row) break;
+    status = visit(row_of(statement));
+    if (!status) break;
+  }
+  statement.reset();
+  return status;
+}
+
+}  // namespace
+
+bool BlockRow::is_intact() const { return checksum == block_checksum(index, touched, data); }
+
+Status MapFile::create(const fs::path& path, bool overwrite) {
+  std::error_code error;
+  const auto kind = fs::status(path, error).type();
+  if (fs::exists(path, error) && (!overwrite || kind != fs::file_type::regular)) {
+    return fail(ErrorCode::kUsage, path.string(), "it exists already",
+                kind == fs::file_type::regular ? "choose another name or allow to overwrite it"
+                                               : "choose the name of a file");
+  }
+  const fs::path fresh = beside(path, ".new");
+  remove_quietly(fresh);
+  if (auto written = write_schema(fresh); !written) {
+    remove_quietly(fresh);
+    remove_quietly(beside(fresh, "-journal"));
+    return written;
+  }
+  // The log of an older map of that name must not be replayed into the new one.
+  for (const char* suffix : {"-wal", "-shm", "-journal"}) remove_quietly(beside(path, suffix));
+  fs::rename(fresh, path, error);
+  if (error) {
+    remove_quietly(fresh);
+    return fail(ErrorCode::kIo, path.string(), "the map cannot be put there: " + error.message());
+  }
+  return Done{};
+}
+
+Expected<MapFile> MapFile::open_to_read(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    return fail(ErrorCode::kNotFound, path.string(), "there is no such map");
+  }
+  if (!fs::is_regular_file(path, error)) {
+    return fail(ErrorCode::kCorruptInput, path.string(), "this is not a file");
+  }
+  MapFile file;
+  file.path_ = path;
+  auto database = Database::open(path, Database::Mode::kReadOnly);
+  if (!database) return forward_error(std::move(database));
+  file.database_ = std::move(*database);
+  if (auto mine = file.check_identity(); !mine) return forward_error(std::move(mine));
+  if (auto ready = file.prepare_reading(); !ready) return forward_error(std::move(ready));
+  return file;
+}
+
+Expected<MapFile> MapFile::open_to_write(const fs::path& path, std::uint64_t max_bytes) {
+  MapFile file;
+  file.path_ = path;
+  auto database = Database::open(path, Database::Mode::kReadWrite);
+  if (!database) return forward_error(std::move(database));
+  file.database_ = std::move(*database);
+  if (auto mine = file.check_identity(); !mine) return forward_error(std::move(mine));
+  auto mode = file.database_.text("PRAGMA journal_mode = WAL");
+  if (!mode) return forward_error(std::move(mode));
+  if (*mode != "wal") {
+    return fail(ErrorCode::kIo, path.string(), "this file system cannot hold a write-ahead log",
+                "write the map to a local disk");
+  }
+  // FULL: a drone loses its power when it crashes, which is when its map is wanted.
+  std::string settings = "PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 8388608;";
+  if (max_bytes > 0) {
+    settings += fmt::format("PRAGMA max_page_count = {}; {};",
+                            max_bytes / static_cast<std::uint64_t>(kPageBytes), kAgeIndex);
+  }
+  if (auto set = file.database_.run(settings); !set) return forward_error(std::move(set));
+  if (auto ready = file.prepare_reading(); !ready) return forward_error(std::move(ready));
+  if (auto ready = file.prepare_writing(); !ready) return forward_error(std::move(ready));
+  return file;
+}
+
+Status MapFile::check_identity() const {
+  auto id = database_.integer("PRAGMA application_id");
+  if (!id) return forward_error(std::move(id));
+  if (*id != kApplicationId) {
+    return fail(ErrorCode::kCorruptInput, path_.string(), "this is not a Swiftlet map");
+  }
+  auto version = database_.integer("PRAGMA user_version");
+  if (!version) return forward_error(std::move(version));
+  if (*version > kSchemaVersion) {
+    return fail(ErrorCode::kUnsupported, path_.string(),
+                fmt::format("the map is of version {}, this program reads up to version {}",
+                            *version, kSchemaVersion),
+                "use a newer Swiftlet");
+  }
+  if (*version < 1) {
+    return fail(ErrorCode::kCorruptInput, path_.string(), "the map has no valid version");
+  }
+  for (const auto& [name, sql] : {std::pair{"blocks", kBlocksTable}, std::pair{"meta", kMetaTable},
+                                  std::pair{"seal", kSealTable}}) {
+    if (auto good = check_table(database_, name, sql, path_); !good) return good;
+  }
+  return Done{};
+}
+
+namespace {
+
+Status prepare_each(const Database& database,
+                    std::initializer_list<std::pair<Statement*, const char*>> statements) {
+  for (const auto& [statement, sql] : statements) {
+    auto prepared = database.prepare(sql);
+    if (!prepared) return forward_error(std::move(prepared));
+    *statement = std::move(*prepared);
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Status MapFile::prepare_reading() {
+  return prepare_each(
+      database_,
+      {{&read_,
+        "SELECT z, y, x, touched, checksum, data FROM blocks WHERE z = ?1 AND y = ?2 AND x = ?3"},
+       {&all_, "SELECT z, y, x, touched, checksum, data FROM blocks ORDER BY z, y, x"}});
+}
+
+Status MapFile::prepare_writing() {
+  return prepare_each(
+      database_,
+      {{&put_, "INSERT OR REPLACE INTO blocks VALUES(?1, ?2, ?3, ?4, ?5, ?6)"},
+       {&erase_, "DELETE FROM blocks WHERE z = ?1 AND y = ?2 AND x = ?3"},
+       {&put_meta_, "INSERT OR REPLACE INTO meta VALUES(?1, ?2)"},
+       {&put_seal_, "UPDATE seal SET blocks = ?1, block_digest = ?2, meta_digest = ?3 WHERE id = 0"},
+       {&oldest_,
+        "SELECT z, y, x, touched, 0, NULL FROM blocks ORDER BY touched, z, y, x LIMIT ?1"},
+       {&page_count_, "PRAGMA page_count"},
+       {&free_pages_, "PRAGMA freelist_count"}});
+}
+
+Expected<MapMeta> MapFile::meta() {
+  auto lines = database_.prepare("SELECT key, value FROM meta");
+  if (!lines) return forward_error(std::move(lines));
+  auto sums = seal();
+  if (!sums) return forward_error(std::move(sums));
+  MapMeta meta;
+  std::uint64_t digest = 0;
+  for (;;) {
+    auto has_row = lines->step();
+    if (!has_row) return forward_error(std::move(has_row));
+    if (!*has_row) break;
+    digest += meta_checksum(lines->text(0), lines->text(1));
+    meta.insert_or_assign(std::string(lines->text(0)), std::string(lines->text(1)));
+  }
+  if (digest == sums->meta_digest) return meta;
+  return fail(ErrorCode::kCorruptInput, path_.string(),
+              "the description of the map (table 'meta') is damaged");
+}
+
+Expected<MapSeal> MapFile::seal() {
+  auto line = database_.prepare("SELECT blocks, block_digest, meta_digest FROM seal WHERE id = 0");
+  if (!line) return forward_error(std::move(line));
+  auto has_row = line->step();
+  if (!has_row) return forward_error(std::move(has_row));
+  if (!*has_row) return fail(ErrorCode::kCorruptInput, path_.string(), "the map has no seal");
+  return MapSeal{line->integer(0), as_unsigned(line->integer(1)), as_unsigned(line->integer(2))};
+}
+
+Expected<bool> MapFile::read(const BlockIndex& index, const VisitRow& visit) {
+  read_.bind(1, std::int64_t{index.z}).bind(2, std::int64_t{index.y}).bind(3, std::int64_t{index.x});
+  bool was_found = false;
+  Status status = visit_rows(read_, [&](const BlockRow& row) {
+    was_found = true;
+    return visit(row);
+  });
+  if (!status) return forward_error(std::move(status));
+  return was_found;
+}
+
+Status MapFile::for_each(const VisitRow& visit) { return visit_rows(all_, visit); }
+
+Expected<std::vector<std::string>> MapFile::integrity_faults() {
+  auto check = database_.prepare("PRAGMA integrity_check(20)");
+  if (!check) return forward_error(std::move(check));
+  std::vector<std::string> faults;
+  for (;;) {
+    auto has_row = check->step();
+    if (!has_row) return forward_error(std::move(has_row));
+    if (!*has_row) return faults;
+    if (check->text(0) != "ok") faults.emplace_back(check->text(0));
+  }
+}
+
+Status MapFile::hold_view() { return database_.run("BEGIN"); }
+Status MapFile::begin() { return database_.run("BEGIN IMMEDIATE"); }
+Status MapFile::commit() { return database_.run("COMMIT"); }
+// SQLite may have rolled back by itself (disk full); then this one fails, and that is fine.
+void MapFile::rollback() { static_cast<void>(database_.run("ROLLBACK")); }
+
+Status MapFile::put(const BlockRow& row) {
+  return put_.bind(1, std::int64_t{row.index.z})
+      .bind(2, std::int64_t{row.index.y})
+      .bind(3, std::int64_t{row.index.x})
+      .bind(4, row.touched)
+      .bind(5, as_signed(row.checksum))
+      .bind(6, row.data)
+      .run();
+}
+
+Status MapFile::erase(const BlockIndex& index) {
+  return erase_.bind(1, std::int64_t{index.z})
+      .bind(2, std::int64_t{index.y})
+      .bind(3, std::int64_t{index.x})
+      .run();
+}
+
+Status MapFile::put_meta(const std::string& key, const std::string& value) {
+  return put_meta_.bind(1, key).bind(2, value).run();
+}
+
+Status MapFile::put_seal(const MapSeal& seal) {
+  return put_seal_.bind(1, seal.blocks)
+      .bind(2, as_signed(seal.block_digest))
+      .bind(3, as_signed(seal.meta_digest))
+      .run();
+}
+
+Status MapFile::oldest(std::int64_t count, const VisitRow& visit) {
+  return visit_rows(oldest_.bind(1, count), visit);
+}
+
+Expected<std::int64_t> MapFile::pages_in_use() {
+  auto total = page_count_.step();
+  if (!total) return forward_error(std::move(total));
+  const std::int64_t pages = page_count_.integer(0);
+  page_count_.reset();
+  auto unused = free_pages_.step();
+  if (!unused) return forward_error(std::move(unused));
+  const std::int64_t free_pages = free_pages_.integer(0);
+  free_pages_.reset();
+  return pages - free_pages;
+}
+
+void MapFile::close() {
+  for (Statement* statement : {&read_, &all_, &put_, &erase_, &put_meta_, &put_seal_, &oldest_,
+                               &page_count_, &free_pages_}) {
+    *statement = Statement{};
+  }
+  database_.close();
+}
+
+Status MapFile::finish() {
+  auto mode = database_.text("PRAGMA journal_mode = DELETE");
+  close();
+  if (!mode) return forward_error(std::move(mode));
+  if (*mode == "delete") return Done{};
+  return fail(ErrorCode::kIo, path_.string(), "the write-ahead log cannot be folded into the map");
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "swiftlet/store/exporters.hpp"
+#include "swiftlet/store/known_cells.hpp"
+#include "swiftlet/store/output_file.hpp"
+
+namespace swiftlet {
+namespace {
+
+struct Rgb {
+  std::uint8_t red, green, blue;
+};
+
+/// From blue at the bottom of the map over green to red at its top.
+Rgb height_colour(double fraction) {
+  const auto hill = [&](double centre) {
+    const double v = std::clamp(1.5 - std::abs(4.0 * fraction - centre), 0.0, 1.0);
+    return static_cast<std::uint8_t>(std::lround(255.0 * v));
+  };
+  return {hill(3.0), hill(2.0), hill(1.0)};
+}
+
+std::string header(std::uint64_t points, const SavedMap& map) {
+  return fmt::format(
+      "ply\nformat binary_little_endian 1.0\n"
+      "comment Swiftlet: centres of occupied cells, {} m, world frame, z up\n"
+      "element vertex {}\n"
+      "property float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "property uchar logodds\nend_header\n",
+      map.voxel_m(), points);
+}
+
+}  // namespace
+
+Status export_ply(const SavedMap& map, const OccupancyThresholds& thresholds,
+                  const std::filesystem::path& out, const ExportProgress& progress) {
+  auto summary = summarize(map, thresholds);
+  if (!summary) return forward_error(std::move(summary));
+  auto file = OutputFile::create(out);
+  if (!file) return forward_error(std::move(file));
+  file->write(header(summary->count(Occupancy::kOccupied), map));
+  const VoxelBox box = summary->bounds.value_or(VoxelBox{});
+  const double height = std::max(1, box.last.z - box.first.z);
+  auto passed = for_each_known_cell(
+      map, thresholds, progress, [&](const VoxelIndex& v, LogOdds cell, Occupancy state) {
+        if (state != Occupancy::kOccupied) return;
+        const Eigen::Vector3f p_world = centre_of(v, map.voxel_m()).cast<float>();
+        for (const float c : {p_world.x(), p_world.y(), p_world.z()}) file->write_little_endian(c);
+        const Rgb colour = height_colour((v.z - box.first.z) / height);
+        for (const std::uint8_t c : {colour.red, colour.green, colour.blue, cell}) {
+          file->write_little_endian(c);
+        }
+      });
+  if (!passed) return passed;
+  return file->commit();
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/store/tile_store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace swiftlet {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t kMinCapBytes = 128 * 1024;
+constexpr int kReadAheadBlocks = 2;  // shells around the window: two moves by one block
+
+Status validate(const TileStoreOptions& o) {
+  using std::chrono::milliseconds;
+  if (o.batch_interval <= milliseconds(0) || o.batch_interval > milliseconds(1000)) {
+    return fail(ErrorCode::kInvalidConfig, "store.batch_interval",
+                "the interval must lie between 1 and 1000 ms");
+  }
+  if (o.max_bytes != 0 && o.max_bytes < kMinCapBytes) {
+    return fail(ErrorCode::kInvalidConfig, "store.max_bytes",
+                "the cap must be at least 131072 bytes, or 0 for none");
+  }
+  if (o.pending_blocks == 0) {
+    return fail(ErrorCode::kInvalidConfig, "store.pending_blocks", "there must be room for one");
+  }
+  return Done{};
+}
+
+/// Copies a row into `out`. Errors: kCorruptInput if any of its bits changed.
+Status decode(const BlockRow& row, BlockCodec& codec, VoxelBlock& out) {
+  if (row.is_intact() && codec.decompress(row.data, out)) return Done{};
+  return fail(ErrorCode::kCorruptInput, "map",
+              fmt::format("the stored block {} {} {} is damaged", row.index.x, row.index.y,
+                          row.index.z));
+}
+
+BlockWindow grown(const BlockWindow& w, int by) {
+  return {{w.first.x - by, w.first.y - by, w.first.z - by},
+          {w.size.x + 2 * by, w.size.y + 2 * by, w.size.z + 2 * by}};
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<TileStore>> TileStore::create(const std::filesystem::path& path,
+                                                       double voxel_m,
+                                                       const TileStoreOptions& options,
+                                                       MapMeta meta) {
+  if (auto valid = validate(options); !valid) return forward_error(std::move(valid));
+  if (auto made = MapFile::create(path, options.overwrite); !made) {
+    return forward_error(std::move(made));
+  }
+  auto writer = BatchWriter::open(path, options.policy, options.max_bytes);
+  if (!writer) return forward_error(std::move(writer));
+  // The first batch is the description alone: a map killed before its first frame is valid.
+  meta["voxel_m"] = fmt::format("{}", voxel_m);
+  if (auto written = writer->write({nullptr, nullptr, &meta}); !written) {
+    return forward_error(std::move(written));
+  }
+  auto reading = MapFile::open_to_read(path);
+  if (!reading) return forward_error(std::move(reading));
+  return std::unique_ptr<TileStore>(
+      new TileStore(options, std::move(*writer), std::move(*reading), std::move(meta)));
+}
+
+TileStore::TileStore(const TileStoreOptions& options, BatchWriter writer, MapFile reading,
+                     MapMeta meta)
+    : options_(options),
+      writer_(std::move(writer)),
+      next_cache_(options.cache_blocks),
+      reading_(std::move(reading)),
+      filling_(options.pending_blocks),
+      writing_(options.pending_blocks),
+      cache_(options.cache_blocks),
+      notes_(std::move(meta)),
+      thread_([this] { run(); }) {}
+
+TileStore::~TileStore() { static_cast<void>(close()); }
+
+void TileStore::follow(MapReader reader) {
+  const std::lock_guard lock(mutex_);
+  if (!reader_) reader_.emplace(std::move(reader));
+}
+
+void TileStore::note(const std::string& key, const std::string& value) {
+  const std::lock_guard lock(mutex_);
+  notes_[key] = value;
+}
+
+void TileStore::evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) {
+  std::unique_lock lock(mutex_);
+  ++stats_.evicted;
+  if (options_.policy == StorePolicy::kDrop || is_closed_) return;
+  bool was_put = filling_.put(index, block, version);
+  if (!was_put && !is_refused_) {
+    ++stats_.stalls;
+    drain_now_ = true;
+    wake_.notify_one();
+    room_.wait(lock, [&] { return !filling_.full() || is_refused_; });
+    was_put = filling_.put(index, block, version);
+  }
+  if (!was_put) {
+    ++stats_.lost;  // the disk refuses: the flight matters more than its map
+    return;
+  }
+  if (!drain_now_ && filling_.size() * 2 >= options_.pending_blocks && !is_refused_) {
+    drain_now_ = true;
+    wake_.notify_one();
+  }
+}
+
+bool TileStore::restore(const BlockIndex& index, VoxelBlock& out) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (options_.policy == StorePolicy::kDrop) return false;
+    // Newest first: evicted since the last batch, in the batch under way, in the file.
+    for (const BlockBuffer* pending : {&filling_, &writing_}) {
+      if (const VoxelBlock* block = pending->find(index)) {
+        out = *block;
+        ++stats_.restored_from_pending;
+        return true;
+      }
+    }
+    if (!stored_.contains(index)) return false;
+    if (const VoxelBlock* block = cache_.find(index)) {
+      out = *block;
+      ++stats_.restored_from_cache;
+      return true;
+    }
+  }
+  return restore_from_disk(index, out);
+}
+
+bool TileStore::restore_from_disk(const BlockIndex& index, VoxelBlock& out) {
+  auto found =
+      reading_.read(index, [&](const BlockRow& row) { return decode(row, restore_codec_, out); });
+  const std::lock_guard lock(mutex_);
+  if (!found) {
+    ++stats_.restore_failed;
+    stats_.error = std::move(found).error();
+    return false;
+  }
+  if (*found) ++stats_.restored_from_disk;
+  return *found;  // false: the cap dropped it this very moment
+}
+
+void TileStore::expect_around(const BlockWindow& window) {
+  if (options_.policy == StorePolicy::kDrop) return;
+  const std::lock_guard lock(mutex_);
+  expected_ = window;
+  wake_.notify_one();
+}
+
+TileStoreStats TileStore::stats() const {
+  const std::lock_guard lock(mutex_);
+  return stats_;
+}
+
+void TileStore::run() {
+  auto next_batch = Clock::now() + options_.batch_interval;
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    wake_.wait_until(lock, next_batch, [&] { return is_closing_ || drain_now_ || expected_; });
+    if (is_closing_) return;
+    if (expected_) {
+      const BlockWindow window = *std::exchange(expected_, std::nullopt);
+      lock.unlock();
+      read_ahead(window);
+      lock.lock();
+    }
+    if (!drain_now_ && Clock::now() < next_batch) continue;
+    drain_now_ = false;
+    // From the start of one batch to the start of the next, so that the interval holds on average.
+    next_batch = Clock::now() + options_.batch_interval;
+    lock.unlock();
+    write_batch();
+    lock.lock();
+  }
+}
+
+void TileStore::write_batch() {
+  // What an earlier batch could not write goes first and alone: with it, filling_ cannot be taken
+  // along, and a snapshot without the evictions before it would leave a gap.
+  if (!writing_.empty() && !write_once(nullptr)) return;
+  const MapReader* reader = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    if (reader_) reader = &*reader_;
+  }
+  const std::optional<MapSnapshot> window = reader == nullptr ? std::nullopt : reader->latest();
+  swap_pending();
+  write_once(window ? &*window : nullptr);
+}
+
+void TileStore::swap_pending() {
+  const std::lock_guard lock(mutex_);
+  std::swap(filling_, writing_);
+  room_.notify_all();
+}
+
+bool TileStore::write_once(const MapSnapshot* window) {
+  const auto start = Clock::now();
+  MapMeta notes;
+  {
+    const std::lock_guard lock(mutex_);
+    notes = notes_;
+  }
+  auto report = writer_.write({window, &writing_, &notes});
+  if (report) {
+    account(*report, Clock::now() - start);
+    return true;
+  }
+  const std::lock_guard lock(mutex_);
+  stats_.error = std::move(report).error();
+  is_refused_ = true;
+  room_.notify_all();
+  return false;
+}
+
+void TileStore::account(const BatchWriter::Report& report, std::chrono::nanoseconds took) {
+  // In short turns, for the mapping thread may be waiting; writing_ answers for the blocks until
+  // the end.
+  constexpr std::size_t kTurn = 512;
+  for (const auto* changed : {&report.written, &report.erased}) {
+    for (std::size_t i = 0; i < changed->size();) {
+      const std::lock_guard lock(mutex_);
+      for (const std::size_t end = std::min(i + kTurn, changed->size()); i < end; ++i) {
+        const BlockIndex& index = (*changed)[i];
+        cache_.forget(index);
+        if (writer_.holds(index)) {
+          stored_.insert(index);
+        } else {
+          stored_.erase(index);
+        }
+      }
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  writing_.clear();
+  stats_.written += report.written.size();
+  stats_.dropped_by_cap += report.dropped_by_cap;
+  ++stats_.batches;
+  stats_.frames_committed = writer_.frames();
+  stats_.blocks_stored = static_cast<std::uint64_t>(writer_.blocks());
+  stats_.bytes = writer_.bytes();
+  stats_.last_batch = took;
+  stats_.error.reset();
+  is_refused_ = false;
+  room_.notify_all();
+}
+
+void TileStore::read_ahead(const BlockWindow& window) {
+  next_cache_.clear();
+  std::optional<Error> error;
+  VoxelBlock block;
+  const auto read = [&](const BlockIndex& index) {
+    if (next_cache_.full() || !writer_.holds(index)) return;
+    if (const VoxelBlock* cached = cache_.find(index)) {
+      next_cache_.put(index, *cached, 0);
+      return;
+    }
+    auto found = writer_.file().read(
+        index, [&](const BlockRow& row) { return decode(row, read_ahead_codec_, block); });
+    if (!found) {
+      error = std::move(found).error();
+    } else if (*found) {
+      next_cache_.put(index, block, 0);
+    }
+  };
+  for (int shell = 1; shell <= kReadAheadBlocks; ++shell) {
+    const BlockWindow inner = grown(window, shell - 1);
+    for_each_block(grown(window, shell), [&](const BlockIndex& index) {
+      if (!inner.contains(index)) read(index);
+    });
+  }
+  const std::lock_guard lock(mutex_);
+  std::swap(cache_, next_cache_);
+  if (error) stats_.error = std::move(error);
+}
+
+Status TileStore::close(std::optional<MapSnapshot> last) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_closed_) return Done{};
+    is_closing_ = true;
+    wake_.notify_one();
+  }
+  thread_.join();
+  if (!last && reader_) last = reader_->latest();
+  bool is_written = writing_.empty() || write_once(nullptr);
+  if (is_written) {
+    swap_pending();
+    is_written = write_once(last ? &*last : nullptr);
+  }
+  last.reset();
+  reader_.reset();
+  reading_.close();
+  Status finished = writer_.file().finish();
+  const std::lock_guard lock(mutex_);
+  is_closed_ = true;
+  if (!is_written) return tl::make_unexpected(*stats_.error);
+  if (stats_.lost > 0) {
+    return fail(ErrorCode::kIo, "map",
+                fmt::format("{} blocks could not be written and are lost", stats_.lost),
+                "check the disk and map again");
+  }
+  return finished;
+}
+
+Status save_map(const std::filesystem::path& path, const MapSnapshot& map, bool overwrite,
+                MapMeta meta) {
+  TileStoreOptions options;
+  options.overwrite = overwrite;
+  options.pending_blocks = 1;  // one batch, from the snapshot
+  options.cache_blocks = 1;
+  auto store = TileStore::create(path, map.voxel_m(), options, std::move(meta));
+  if (!store) return forward_error(std::move(store));
+  return (*store)->close(map);
+}
+
+}  // namespace swiftlet
