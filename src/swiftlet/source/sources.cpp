@@ -8,9 +8,11 @@
 
 // A source is one file and one line here: whether it is built (1, 0 or SWIFTLET_HAS_...), the name
 // the user types, the function at the end of its file, and a sentence for `swiftlet list`.
-#define SWIFTLET_SOURCES(X)                                                                     \
-  X(1, "7scenes", open_seven_scenes_source, "folder of depth images and poses by frame number") \
-  X(1, "tum", open_tum_source, "TUM RGB-D folder: depth.txt and groundtruth.txt, joined by time")
+#define SWIFTLET_SOURCES(X)                                                                       \
+  X(1, "7scenes", open_seven_scenes_source, "folder of depth images and poses by frame number")   \
+  X(1, "tum", open_tum_source, "TUM RGB-D folder: depth.txt and groundtruth.txt, joined by time") \
+  X(SWIFTLET_HAS_EMBREE, "sim", open_sim_source,                                                  \
+    "simulated D435 and T265 in a built-in scene or a .yaml file")
 
 // An opener whose part was not built must not even be named: there is nothing to link.
 #define SWIFTLET_IF_BUILT_1(opener) opener

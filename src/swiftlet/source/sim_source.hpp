@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <string_view>
+
+#include "swiftlet/source/frame_source.hpp"
+
+namespace swiftlet {
+
+/// The simulated rig: `sim:SCENE` or `sim:SCENE?option=value&...`, where SCENE is a built-in scene
+/// or the path of a .yaml file. Options:
+///   seed=N         other noise, same flight (default: the scene's)
+///   noise=on|off   off: ideal instruments, trusted from the start (default: on)
+///   start=SECONDS  switches the rig on that far into the flight (default: 0)
+///   frames=N       at most N depth images (default: to the end of the flight)
+///
+/// Depth images and T265 samples come in time order and meet in a Rig, as those of a real rig
+/// would; frames before the tracker is sure of itself are lost and counted.
+/// World frame: the scene's. A T265's world starts at the body's place and heading; the simulation
+/// knows where that is in the scene and puts it there (as a surveyed take-off point would), so the
+/// map's axes are exactly those of the scene file, up to the tracker's noise and drift.
+/// Errors: kUsage for unknown options, and those of load_scene().
+[[nodiscard]] Expected<FrameSourcePtr> open_sim_source(std::string_view rest);
+
+}  // namespace swiftlet
