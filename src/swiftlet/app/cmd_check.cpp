@@ -40,7 +40,9 @@ Faults check(const std::vector<std::string>& paths) {
 
 Action declare_check(CLI::App& parser) {
   auto paths = std::make_shared<std::vector<std::string>>();
-  parser.add_option("FILE", *paths, "map files (.swl) and config files (.yaml)")->required();
+  parser.add_option("FILE", *paths, "map files (.swl) and config files (.yaml)")
+      ->type_name("")
+      ->required();
   parser.footer(
       "Examples:\n"
       "  swiftlet check flat.swl        every byte of a map, after a crash or a bad disk\n"

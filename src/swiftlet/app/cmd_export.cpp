@@ -33,9 +33,11 @@ Faults write_export(const ExportOptions& options) {
 
 Action declare_export(CLI::App& parser) {
   auto o = std::make_shared<ExportOptions>();
-  parser.add_option("MAP", o->map, "map file")->required();
-  parser.add_option("--to", o->format, "format, see 'swiftlet list exporters'")->required();
-  parser.add_option("-o,--out", o->out, "file to write")->required();
+  parser.add_option("MAP", o->map, "map file")->type_name("")->required();
+  parser.add_option("--to", o->format, "format, see 'swiftlet list exporters'")
+      ->type_name("NAME")
+      ->required();
+  parser.add_option("-o,--out", o->out, "file to write")->type_name("FILE")->required();
   parser.footer(
       "Examples:\n"
       "  swiftlet export flat.swl --to ply -o flat.ply    points for CloudCompare or MeshLab\n"

@@ -99,7 +99,7 @@ Faults info(const InfoOptions& options) {
 
 Action declare_info(CLI::App& parser) {
   auto o = std::make_shared<InfoOptions>();
-  parser.add_option("MAP", o->map, "map file")->required();
+  parser.add_option("MAP", o->map, "map file")->type_name("")->required();
   parser.add_flag("--json", o->as_json, "one JSON object, for machines");
   parser.footer(
       "Examples:\n"

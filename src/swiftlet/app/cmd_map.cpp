@@ -139,22 +139,32 @@ Faults map(const MapOptions& options) {
 
 Action declare_map(CLI::App& parser) {
   auto o = std::make_shared<MapOptions>();
-  parser.add_option("SOURCE", o->source, "where frames come from, as KIND:PLACE")->required();
-  parser.add_option("-o,--out", o->out, "map file to write")->capture_default_str();
+  // Without their descriptions, which would stand in the help twice.
+  CLI::Range positive(1, 1'000'000'000);
+  positive.description("");
+  CLI::AsSizeValue size(false);
+  size.description("");
+  parser.add_option("SOURCE", o->source, "where frames come from, as KIND:PLACE")
+      ->type_name("")
+      ->required();
+  parser.add_option("-o,--out", o->out, "map file to write")
+      ->type_name("FILE")
+      ->capture_default_str();
   parser.add_flag("--overwrite", o->overwrite, "replace the map file if there is one");
-  parser.add_option("--config", o->config.file, "parameters, as a YAML file");
+  parser.add_option("--config", o->config.file, "parameters, as a YAML file")->type_name("FILE");
   parser.add_option("--set", o->config.settings, "one parameter, as in map.voxel_m=0.1")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  parser.add_option("--rays", o->rays, "ray method, see 'swiftlet list rays'");
+  parser.add_option("--rays", o->rays, "ray method, see 'swiftlet list rays'")->type_name("NAME");
   parser.add_option("--frames", o->frames, "stop after this many frames")
-      ->check(CLI::PositiveNumber);
+      ->check(positive)
+      ->type_name("N");
   parser.add_option("--store", o->store, "what leaves the window: keep it in the file or drop it")
       ->check(CLI::IsMember({"keep", "drop"}))
       ->capture_default_str();
   parser
       .add_option("--max-bytes", o->max_bytes, "cap of the map file, as in 500MB; oldest go first")
-      ->transform(CLI::AsSizeValue(false))
+      ->transform(size)
       ->type_name("SIZE");
   parser.add_flag("--json", o->as_json, "the summary as one JSON object, for machines");
   parser.footer(

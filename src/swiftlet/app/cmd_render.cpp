@@ -40,15 +40,22 @@ Faults render(const RenderOptions& options) {
 
 Action declare_render(CLI::App& parser) {
   auto o = std::make_shared<RenderOptions>();
-  parser.add_option("MAP", o->map, "map file")->required();
-  parser.add_option("-o,--out", o->out, "PNG picture to write")->required();
-  parser.add_option("--view", o->view, "see 'swiftlet list views'")->capture_default_str();
-  parser.add_option("--z", o->how.z_m,
-                    "metres above the start: height of a slice (default 0); other views leave out "
-                    "what lies above");
-  parser.add_option("--scale", o->how.cell_px, "pixels per cell")
-      ->check(CLI::Range(1, 256))
+  parser.add_option("MAP", o->map, "map file")->type_name("")->required();
+  parser.add_option("-o,--out", o->out, "PNG picture to write")->type_name("FILE")->required();
+  parser.add_option("--view", o->view, "see 'swiftlet list views'")
+      ->type_name("NAME")
       ->capture_default_str();
+  parser
+      .add_option("--z", o->how.z_m,
+                  "metres above the start: height of a slice (default 0); other views leave out "
+                  "what lies above")
+      ->type_name("METRES");
+  CLI::Range scales(1, 256);
+  scales.description("");
+  parser
+      .add_option("--scale", o->how.cell_px, "pixels per cell, 1 to 256 (default: what fits 1200)")
+      ->check(scales)
+      ->type_name("PX");
   parser.footer(
       "Examples:\n"
       "  swiftlet render flat.swl -o plan.png                          from above\n"

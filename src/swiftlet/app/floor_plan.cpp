@@ -94,6 +94,15 @@ Column column_at(const LoadedMap& map, const VoxelBox& box, std::int32_t x, std:
   return column;
 }
 
+std::optional<std::int32_t> lowest_matter(const LoadedMap& map, const VoxelBox& box) {
+  std::optional<std::int32_t> lowest;
+  map.for_each_known_cell([&](const VoxelIndex& v, Occupancy state) {
+    if (state == Occupancy::kOccupied && box.contains(v))
+      lowest = std::min(lowest.value_or(v.z), v.z);
+  });
+  return lowest;
+}
+
 VoxelBox cut_box(const VoxelBox& box, double voxel_m, const ViewOptions& options) {
   VoxelBox cut = box;
   if (!options.z_m) return cut;

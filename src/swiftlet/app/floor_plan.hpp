@@ -42,6 +42,9 @@ struct Column {
 [[nodiscard]] Column column_at(const LoadedMap& map, const VoxelBox& box, std::int32_t x,
                                std::int32_t y);
 
+/// z of the lowest occupied cell in a box: the foot of the scale of heights.
+[[nodiscard]] std::optional<std::int32_t> lowest_matter(const LoadedMap& map, const VoxelBox& box);
+
 /// The box without what lies above options.z_m.
 [[nodiscard]] VoxelBox cut_box(const VoxelBox& box, double voxel_m, const ViewOptions& options);
 

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "swiftlet/app/map_view.hpp"
 
@@ -29,9 +29,27 @@ std::span<const Registered<DrawView>> map_views() {
   return kViews;
 }
 
+namespace {
+
+constexpr double kMaxMegapixels = 200.0;
+constexpr double kFitting_px = 1200.0;
+
+/// No side of a picture is longer than this, in cells. A double: a box may be wider than an int.
+double wide_cells(const VoxelBox& box) {
+  const auto side = [](std::int32_t first, std::int32_t last) { return 1.0 + last - first; };
+  const double x = side(box.first.x, box.last.x);
+  const double y = side(box.first.y, box.last.y);
+  return std::max({x, y, (x + y) * 0.87, (x + y) * 0.5 + side(box.first.z, box.last.z)});
+}
+
+int fitting_cell_px(const VoxelBox& box) {
+  return static_cast<int>(std::clamp(kFitting_px / wide_cells(box), 1.0, 32.0));
+}
+
+}  // namespace
+
 Expected<Picture> draw_view(std::string_view name, const LoadedMap& map,
                             const ViewOptions& options) {
-  constexpr double kMaxPixels = 200e6;
   auto view = find_registered(map_views(), name, "view");
   if (!view) return forward_error(std::move(view));
   const auto box = known_box(map);
@@ -39,19 +57,16 @@ Expected<Picture> draw_view(std::string_view name, const LoadedMap& map,
     return fail(ErrorCode::kNotFound, {}, "the map holds no free or occupied cell to draw",
                 "look at it with 'swiftlet info'");
   }
-  // In doubles: a box may be wider than an int of pixels.
-  const auto side_px = [&](std::int32_t first, std::int32_t last) {
-    return (double{1} + last - first) * options.cell_px;
-  };
-  const double width = side_px(box->first.y, box->last.y) + side_px(box->first.x, box->last.x);
-  const double height = width + side_px(box->first.z, box->last.z);
-  if (width * height > kMaxPixels) {
-    return fail(
-        ErrorCode::kUsage, "--scale",
-        fmt::format("the picture would have about {:.0f} megapixels", width * height * 1e-6),
-        "choose fewer pixels per cell");
+  ViewOptions fitted = options;
+  if (fitted.cell_px == 0) fitted.cell_px = fitting_cell_px(*box);
+  const double megapixels =
+      wide_cells(*box) * wide_cells(*box) * fitted.cell_px * fitted.cell_px * 1e-6;
+  if (megapixels > kMaxMegapixels) {
+    return fail(ErrorCode::kUsage, "--scale",
+                fmt::format("the picture could have {:.0f} megapixels", megapixels),
+                "choose fewer pixels per cell");
   }
-  return view->make(map, *box, options);
+  return view->make(map, *box, fitted);
 }
 
 }  // namespace swiftlet::app

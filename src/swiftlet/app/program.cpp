@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/app/nearest_name.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -30,6 +31,15 @@ int report(const Faults& faults) {
   return exit_code(faults);
 }
 
+/// The first word on the command line is no command.
+int report_unknown(const std::string& word) {
+  std::vector<std::string> names;
+  for (const auto& command : commands()) names.emplace_back(command.name);
+  const auto meant = nearest_name(word, names);
+  return report({{ErrorCode::kUsage, "command line", fmt::format("there is no command '{}'", word),
+                  meant ? fmt::format("did you mean '{}'", *meant) : "try 'swiftlet --help'"}});
+}
+
 /// Help and version are asked for by the user and are no faults, though CLI11 throws them too.
 int report(const CLI::App& program, const CLI::ParseError& stop) {
   if (stop.get_exit_code() == 0) return program.exit(stop);
@@ -39,6 +49,9 @@ int report(const CLI::App& program, const CLI::ParseError& stop) {
     place = chosen->get_name();
     help = fmt::format("swiftlet {} --help", chosen->get_name());
   }
+  const bool has_command = !program.get_subcommands().empty();
+  const auto strangers = program.remaining();
+  if (!has_command && !strangers.empty()) return report_unknown(strangers.front());
   return report({{ErrorCode::kUsage, place, stop.what(), fmt::format("try '{}'", help)}});
 }
 
@@ -47,7 +60,6 @@ int report(const CLI::App& program, const CLI::ParseError& stop) {
 int run_program(int argc, char** argv) {
   CLI::App program{"Swiftlet: real-time 3-D occupancy maps for small drones", "swiftlet"};
   program.set_version_flag("--version", "swiftlet " SWIFTLET_VERSION);
-  program.require_subcommand(1);
   program.footer(
       "Examples:\n"
       "  swiftlet map sim:apartment -o flat.swl     fly a simulated rig and map what it sees\n"
@@ -62,6 +74,7 @@ int run_program(int argc, char** argv) {
   }
   try {
     program.parse(argc, argv);
+    if (!chosen) throw CLI::RequiredError("a command");
     return report(chosen());
   } catch (const CLI::ParseError& stop) {
     return report(program, stop);

@@ -22,7 +22,7 @@ std::string latency_text(const Latency& latency) {
                                  milliseconds(latency.frame_percentile(0.99)));
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    text += fmt::format("    {:9}p50 {:.2f} ms, p99 {:.2f} ms\n", kStageNames[i],
+    text += fmt::format("    {:<9}  p50 {:.2f} ms, p99 {:.2f} ms\n", kStageNames[i],
                         milliseconds(latency.stage_percentile(stage, 0.50)),
                         milliseconds(latency.stage_percentile(stage, 0.99)));
   }

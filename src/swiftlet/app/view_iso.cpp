@@ -131,7 +131,7 @@ class IsoDrawing {
 /// Painter's algorithm: cells from the farthest to the nearest, which for cubes of one size is the
 /// order of x + y - z, falling; only faces that no other cell covers are drawn.
 Picture draw_iso(const LoadedMap& map, const VoxelBox& whole, const ViewOptions& options) {
-  const VoxelBox box = cut_box(whole, map.voxel_m, options);
+  VoxelBox box = cut_box(whole, map.voxel_m, options);
   std::vector<VoxelIndex> cells;
   map.for_each_known_cell([&](const VoxelIndex& v, Occupancy state) {
     if (state == Occupancy::kOccupied && v.z <= box.last.z) cells.push_back(v);
@@ -140,6 +140,8 @@ Picture draw_iso(const LoadedMap& map, const VoxelBox& whole, const ViewOptions&
     const int far_a = a.x + a.y - a.z, far_b = b.x + b.y - b.z;
     return far_a != far_b ? far_a > far_b : a < b;  // the order of a hash map must not show
   });
+  // The floor lies under the lowest matter, not under the lowest free cell.
+  box.first.z = lowest_matter(map, box).value_or(box.first.z);
   IsoDrawing drawing(map, box, options.cell_px);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
     const Column column = column_at(map, box, x, y);
