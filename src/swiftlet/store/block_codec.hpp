@@ -26,7 +26,7 @@ namespace swiftlet {
 [[nodiscard]] std::uint64_t meta_checksum(std::string_view key, std::string_view value);
 
 /// Blocks to compressed bytes and back: one zstd frame, level 1, with content size and checksum.
-/// Thread safety: one thread at a time. Does not allocate after construction.
+/// Thread safety: one thread at a time. Does not allocate after its first use.
 class BlockCodec {
  public:
   static constexpr std::size_t kMaxBytes = 640;  ///< ZSTD_compressBound(512) and the checksum

@@ -9,7 +9,6 @@
 #include <system_error>
 #include <utility>
 
-#include "swiftlet/base/narrow.hpp"
 #include "swiftlet/store/block_codec.hpp"
 
 namespace swiftlet {
@@ -19,48 +18,12 @@ namespace fs = std::filesystem;
 using sqlite::Database;
 using sqlite::Statement;
 
-// The schema is compared with these letters when a map is opened, so a damaged one is not followed.
-constexpr const char* kBlocksTable =
-    "CREATE TABLE blocks(z INTEGER NOT NULL, y INTEGER NOT NULL, x INTEGER NOT NULL, "
-    "touched INTEGER NOT NULL, checksum INTEGER NOT NULL, data BLOB NOT NULL, "
-    "PRIMARY KEY(z, y, x)) WITHOUT ROWID";
-constexpr const char* kMetaTable =
-    "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID";
-constexpr const char* kSealTable =
-    "CREATE TABLE seal(id INTEGER PRIMARY KEY, blocks INTEGER NOT NULL, "
-    "block_digest INTEGER NOT NULL, meta_digest INTEGER NOT NULL)";
 // Made only for maps with a byte cap, which need to find the oldest blocks.
 constexpr const char* kAgeIndex =
     "CREATE INDEX IF NOT EXISTS blocks_by_age ON blocks(touched, z, y, x)";
 
 std::int64_t as_signed(std::uint64_t v) { return std::bit_cast<std::int64_t>(v); }
 std::uint64_t as_unsigned(std::int64_t v) { return std::bit_cast<std::uint64_t>(v); }
-
-fs::path beside(const fs::path& path, const char* suffix) { return path.string() + suffix; }
-
-void remove_quietly(const fs::path& path) {
-  std::error_code ignored;
-  fs::remove(path, ignored);
-}
-
-Status write_schema(const fs::path& path) {
-  auto database = Database::open(path, Database::Mode::kCreate);
-  if (!database) return forward_error(std::move(database));
-  return database->run(fmt::format(
-      "PRAGMA page_size = {}; PRAGMA application_id = {}; PRAGMA user_version = {}; "
-      "BEGIN; {}; {}; {}; INSERT INTO seal VALUES(0, 0, 0, 0); COMMIT",
-      MapFile::kPageBytes, MapFile::kApplicationId, MapFile::kSchemaVersion, kBlocksTable,
-      kMetaTable, kSealTable));
-}
-
-Status check_table(const Database& database, const char* name, const char* expected,
-                   const fs::path& path) {
-  auto sql = database.text(fmt::format("SELECT sql FROM sqlite_schema WHERE name = '{}'", name));
-  if (!sql) return forward_error(std::move(sql));
-  if (*sql == expected) return Done{};
-  return fail(ErrorCode::kCorruptInput, path.string(),
-              fmt::format("the table '{}' of the map is not as it should be", name));
-}
 
 BlockRow row_of(const Statement& s) {
   // A damaged coordinate may be any number; the checksum finds the ones that wrapped around here.
@@ -88,29 +51,11 @@ Status visit_rows(Statement& statement, const MapFile::VisitRow& visit) {
 
 bool BlockRow::is_intact() const { return checksum == block_checksum(index, touched, data); }
 
-Status MapFile::create(const fs::path& path, bool overwrite) {
-  std::error_code error;
-  const auto kind = fs::status(path, error).type();
-  if (fs::exists(path, error) && (!overwrite || kind != fs::file_type::regular)) {
-    return fail(ErrorCode::kUsage, path.string(), "it exists already",
-                kind == fs::file_type::regular ? "choose another name or allow to overwrite it"
-                                               : "choose the name of a file");
-  }
-  const fs::path fresh = beside(path, ".new");
-  remove_quietly(fresh);
-  if (auto written = write_schema(fresh); !written) {
-    remove_quietly(fresh);
-    remove_quietly(beside(fresh, "-journal"));
-    return written;
-  }
-  // The log of an older map of that name must not be replayed into the new one.
-  for (const char* suffix : {"-wal", "-shm", "-journal"}) remove_quietly(beside(path, suffix));
-  fs::rename(fresh, path, error);
-  if (error) {
-    remove_quietly(fresh);
-    return fail(ErrorCode::kIo, path.string(), "the map cannot be put there: " + error.message());
-  }
-  return Done{};
+Status decode_row(const BlockRow& row, BlockCodec& codec, VoxelBlock& out) {
+  if (row.is_intact() && codec.decompress(row.data, out)) return Done{};
+  return fail(
+      ErrorCode::kCorruptInput, "map",
+      fmt::format("the stored block {} {} {} is damaged", row.index.x, row.index.y, row.index.z));
 }
 
 Expected<MapFile> MapFile::open_to_read(const fs::path& path) {
@@ -156,30 +101,6 @@ Expected<MapFile> MapFile::open_to_write(const fs::path& path, std::uint64_t max
   return file;
 }
 
-Status MapFile::check_identity() const {
-  auto id = database_.integer("PRAGMA application_id");
-  if (!id) return forward_error(std::move(id));
-  if (*id != kApplicationId) {
-    return fail(ErrorCode::kCorruptInput, path_.string(), "this is not a Swiftlet map");
-  }
-  auto version = database_.integer("PRAGMA user_version");
-  if (!version) return forward_error(std::move(version));
-  if (*version > kSchemaVersion) {
-    return fail(ErrorCode::kUnsupported, path_.string(),
-                fmt::format("the map is of version {}, this program reads up to version {}",
-                            *version, kSchemaVersion),
-                "use a newer Swiftlet");
-  }
-  if (*version < 1) {
-    return fail(ErrorCode::kCorruptInput, path_.string(), "the map has no valid version");
-  }
-  for (const auto& [name, sql] : {std::pair{"blocks", kBlocksTable}, std::pair{"meta", kMetaTable},
-                                  std::pair{"seal", kSealTable}}) {
-    if (auto good = check_table(database_, name, sql, path_); !good) return good;
-  }
-  return Done{};
-}
-
 namespace {
 
 Status prepare_each(const Database& database,
@@ -208,7 +129,8 @@ Status MapFile::prepare_writing() {
       {{&put_, "INSERT OR REPLACE INTO blocks VALUES(?1, ?2, ?3, ?4, ?5, ?6)"},
        {&erase_, "DELETE FROM blocks WHERE z = ?1 AND y = ?2 AND x = ?3"},
        {&put_meta_, "INSERT OR REPLACE INTO meta VALUES(?1, ?2)"},
-       {&put_seal_, "UPDATE seal SET blocks = ?1, block_digest = ?2, meta_digest = ?3 WHERE id = 0"},
+       {&put_seal_,
+        "UPDATE seal SET blocks = ?1, block_digest = ?2, meta_digest = ?3 WHERE id = 0"},
        {&oldest_,
         "SELECT z, y, x, touched, 0, NULL FROM blocks ORDER BY touched, z, y, x LIMIT ?1"},
        {&page_count_, "PRAGMA page_count"},
@@ -244,7 +166,9 @@ Expected<MapSeal> MapFile::seal() {
 }
 
 Expected<bool> MapFile::read(const BlockIndex& index, const VisitRow& visit) {
-  read_.bind(1, std::int64_t{index.z}).bind(2, std::int64_t{index.y}).bind(3, std::int64_t{index.x});
+  read_.bind(1, std::int64_t{index.z})
+      .bind(2, std::int64_t{index.y})
+      .bind(3, std::int64_t{index.x});
   bool was_found = false;
   Status status = visit_rows(read_, [&](const BlockRow& row) {
     was_found = true;

@@ -13,6 +13,8 @@
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/base/voxel_index.hpp"
+#include "swiftlet/map/voxel_block.hpp"
+#include "swiftlet/store/block_codec.hpp"
 #include "swiftlet/store/sqlite.hpp"
 
 namespace swiftlet {
@@ -32,6 +34,10 @@ struct BlockRow {
   [[nodiscard]] bool is_intact() const;
 };
 
+/// Decompresses a row into `out`. Errors: kCorruptInput naming the block if any of its bits
+/// changed.
+[[nodiscard]] Status decode_row(const BlockRow& row, BlockCodec& codec, VoxelBlock& out);
+
 /// Sums over all rows, so that a row that vanished or appeared is noticed: checksums added modulo
 /// 2^64, which makes the order of writing indifferent.
 struct MapSeal {
@@ -41,7 +47,8 @@ struct MapSeal {
   friend bool operator==(const MapSeal&, const MapSeal&) = default;
 };
 
-/// The tables of a map file: every SQL sentence that Swiftlet speaks stands in map_file.cpp.
+/// The tables of a map file: every SQL sentence that Swiftlet speaks stands in map_file.cpp and
+/// map_schema.cpp.
 /// Thread safety: one thread at a time; any number of MapFiles may be open on one file, one of them
 /// for writing.
 class MapFile {

@@ -3,12 +3,15 @@
 
 #if SWIFTLET_HAS_OCTOMAP
 
+#include <fmt/format.h>
 #include <octomap/OcTree.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "swiftlet/store/exporters.hpp"
@@ -74,15 +77,27 @@ Expected<std::unique_ptr<octomap::OcTree>> build_tree(const SavedMap& map,
   return tree;
 }
 
+/// What AbstractOcTree::write() would put first; that function also prints, and rounds the cell
+/// size to six digits.
+std::string header(std::string_view first_line, const octomap::OcTree& tree) {
+  return fmt::format(
+      "{}\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
+      "id {}\nsize {}\nres {}\ndata\n",
+      first_line, tree.getTreeType(), tree.size(), tree.getResolution());
+}
+
 }  // namespace
 
 Status export_bt(const SavedMap& map, const OccupancyThresholds& thresholds,
                  const std::filesystem::path& out, const ExportProgress& progress) {
   auto tree = build_tree(map, thresholds, out, progress);
   if (!tree) return forward_error(std::move(tree));
+  (*tree)->toMaxLikelihood();  // reduces each cell to free or occupied
+  (*tree)->prune();
   auto file = OutputFile::create(out);
   if (!file) return forward_error(std::move(file));
-  (*tree)->writeBinary(file->stream());  // reduces each cell to free or occupied, then prunes
+  file->write(header("# Octomap OcTree binary file", **tree));
+  if ((*tree)->size() > 0) (*tree)->writeBinaryNode(file->stream(), (*tree)->getRoot());
   return file->commit();
 }
 
@@ -93,7 +108,8 @@ Status export_ot(const SavedMap& map, const OccupancyThresholds& thresholds,
   (*tree)->prune();  // joins eight equal cells only
   auto file = OutputFile::create(out);
   if (!file) return forward_error(std::move(file));
-  static_cast<void>((*tree)->write(file->stream()));  // the stream remembers; commit() asks it
+  file->write(header("# Octomap OcTree file", **tree));
+  if ((*tree)->size() > 0) (*tree)->writeData(file->stream());
   return file->commit();
 }
 

@@ -18,11 +18,11 @@ Status export_pcd(const SavedMap& map, const OccupancyThresholds& thresholds,
   auto file = OutputFile::create(out);
   if (!file) return forward_error(std::move(file));
   const std::uint64_t points = summary->count(Occupancy::kOccupied);
-  file->write(fmt::format(
-      "# .PCD v0.7 - Point Cloud Data file format\n"
-      "VERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
-      "WIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
-      points));
+  file->write(
+      fmt::format("# .PCD v0.7 - Point Cloud Data file format\n"
+                  "VERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
+                  "WIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
+                  points));
   auto passed = for_each_known_cell(
       map, thresholds, progress, [&](const VoxelIndex& v, LogOdds cell, Occupancy state) {
         if (state != Occupancy::kOccupied) return;

@@ -13,7 +13,7 @@
 namespace swiftlet::sqlite {
 namespace {
 
-constexpr int kBusyTimeout_ms = 2000;
+constexpr int kBusyTimeout_ms = 1000;
 
 std::string system_reason(sqlite3* connection) {
   const int number = connection == nullptr ? 0 : sqlite3_system_errno(connection);
@@ -115,8 +115,7 @@ Expected<Database> Database::open(const std::filesystem::path& path, Mode mode) 
   Database database;
   database.where_ = path.string();
   sqlite3* connection = nullptr;
-  const int code =
-      sqlite3_open_v2(path.c_str(), &connection, flags | SQLITE_OPEN_NOMUTEX, nullptr);
+  const int code = sqlite3_open_v2(path.c_str(), &connection, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   database.connection_.reset(connection);
   if (code != SQLITE_OK) return failure(connection, code, database.where_);
   sqlite3_busy_timeout(connection, kBusyTimeout_ms);

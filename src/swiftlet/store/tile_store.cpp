@@ -11,10 +11,7 @@
 namespace swiftlet {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::uint64_t kMinCapBytes = 128 * 1024;
-constexpr int kReadAheadBlocks = 2;  // shells around the window: two moves by one block
 
 Status validate(const TileStoreOptions& o) {
   using std::chrono::milliseconds;
@@ -30,19 +27,6 @@ Status validate(const TileStoreOptions& o) {
     return fail(ErrorCode::kInvalidConfig, "store.pending_blocks", "there must be room for one");
   }
   return Done{};
-}
-
-/// Copies a row into `out`. Errors: kCorruptInput if any of its bits changed.
-Status decode(const BlockRow& row, BlockCodec& codec, VoxelBlock& out) {
-  if (row.is_intact() && codec.decompress(row.data, out)) return Done{};
-  return fail(ErrorCode::kCorruptInput, "map",
-              fmt::format("the stored block {} {} {} is damaged", row.index.x, row.index.y,
-                          row.index.z));
-}
-
-BlockWindow grown(const BlockWindow& w, int by) {
-  return {{w.first.x - by, w.first.y - by, w.first.z - by},
-          {w.size.x + 2 * by, w.size.y + 2 * by, w.size.z + 2 * by}};
 }
 
 }  // namespace
@@ -137,8 +121,8 @@ bool TileStore::restore(const BlockIndex& index, VoxelBlock& out) {
 }
 
 bool TileStore::restore_from_disk(const BlockIndex& index, VoxelBlock& out) {
-  auto found =
-      reading_.read(index, [&](const BlockRow& row) { return decode(row, restore_codec_, out); });
+  auto found = reading_.read(
+      index, [&](const BlockRow& row) { return decode_row(row, restore_codec_, out); });
   const std::lock_guard lock(mutex_);
   if (!found) {
     ++stats_.restore_failed;
@@ -159,128 +143,6 @@ void TileStore::expect_around(const BlockWindow& window) {
 TileStoreStats TileStore::stats() const {
   const std::lock_guard lock(mutex_);
   return stats_;
-}
-
-void TileStore::run() {
-  auto next_batch = Clock::now() + options_.batch_interval;
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    wake_.wait_until(lock, next_batch, [&] { return is_closing_ || drain_now_ || expected_; });
-    if (is_closing_) return;
-    if (expected_) {
-      const BlockWindow window = *std::exchange(expected_, std::nullopt);
-      lock.unlock();
-      read_ahead(window);
-      lock.lock();
-    }
-    if (!drain_now_ && Clock::now() < next_batch) continue;
-    drain_now_ = false;
-    // From the start of one batch to the start of the next, so that the interval holds on average.
-    next_batch = Clock::now() + options_.batch_interval;
-    lock.unlock();
-    write_batch();
-    lock.lock();
-  }
-}
-
-void TileStore::write_batch() {
-  // What an earlier batch could not write goes first and alone: with it, filling_ cannot be taken
-  // along, and a snapshot without the evictions before it would leave a gap.
-  if (!writing_.empty() && !write_once(nullptr)) return;
-  const MapReader* reader = nullptr;
-  {
-    const std::lock_guard lock(mutex_);
-    if (reader_) reader = &*reader_;
-  }
-  const std::optional<MapSnapshot> window = reader == nullptr ? std::nullopt : reader->latest();
-  swap_pending();
-  write_once(window ? &*window : nullptr);
-}
-
-void TileStore::swap_pending() {
-  const std::lock_guard lock(mutex_);
-  std::swap(filling_, writing_);
-  room_.notify_all();
-}
-
-bool TileStore::write_once(const MapSnapshot* window) {
-  const auto start = Clock::now();
-  MapMeta notes;
-  {
-    const std::lock_guard lock(mutex_);
-    notes = notes_;
-  }
-  auto report = writer_.write({window, &writing_, &notes});
-  if (report) {
-    account(*report, Clock::now() - start);
-    return true;
-  }
-  const std::lock_guard lock(mutex_);
-  stats_.error = std::move(report).error();
-  is_refused_ = true;
-  room_.notify_all();
-  return false;
-}
-
-void TileStore::account(const BatchWriter::Report& report, std::chrono::nanoseconds took) {
-  // In short turns, for the mapping thread may be waiting; writing_ answers for the blocks until
-  // the end.
-  constexpr std::size_t kTurn = 512;
-  for (const auto* changed : {&report.written, &report.erased}) {
-    for (std::size_t i = 0; i < changed->size();) {
-      const std::lock_guard lock(mutex_);
-      for (const std::size_t end = std::min(i + kTurn, changed->size()); i < end; ++i) {
-        const BlockIndex& index = (*changed)[i];
-        cache_.forget(index);
-        if (writer_.holds(index)) {
-          stored_.insert(index);
-        } else {
-          stored_.erase(index);
-        }
-      }
-    }
-  }
-  const std::lock_guard lock(mutex_);
-  writing_.clear();
-  stats_.written += report.written.size();
-  stats_.dropped_by_cap += report.dropped_by_cap;
-  ++stats_.batches;
-  stats_.frames_committed = writer_.frames();
-  stats_.blocks_stored = static_cast<std::uint64_t>(writer_.blocks());
-  stats_.bytes = writer_.bytes();
-  stats_.last_batch = took;
-  stats_.error.reset();
-  is_refused_ = false;
-  room_.notify_all();
-}
-
-void TileStore::read_ahead(const BlockWindow& window) {
-  next_cache_.clear();
-  std::optional<Error> error;
-  VoxelBlock block;
-  const auto read = [&](const BlockIndex& index) {
-    if (next_cache_.full() || !writer_.holds(index)) return;
-    if (const VoxelBlock* cached = cache_.find(index)) {
-      next_cache_.put(index, *cached, 0);
-      return;
-    }
-    auto found = writer_.file().read(
-        index, [&](const BlockRow& row) { return decode(row, read_ahead_codec_, block); });
-    if (!found) {
-      error = std::move(found).error();
-    } else if (*found) {
-      next_cache_.put(index, block, 0);
-    }
-  };
-  for (int shell = 1; shell <= kReadAheadBlocks; ++shell) {
-    const BlockWindow inner = grown(window, shell - 1);
-    for_each_block(grown(window, shell), [&](const BlockIndex& index) {
-      if (!inner.contains(index)) read(index);
-    });
-  }
-  const std::lock_guard lock(mutex_);
-  std::swap(cache_, next_cache_);
-  if (error) stats_.error = std::move(error);
 }
 
 Status TileStore::close(std::optional<MapSnapshot> last) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "app/run_program.hpp"
+#include "app/support/run_program.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/store/exporters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <tuple>
+
+#if SWIFTLET_HAS_OCTOMAP
+#include <octomap/ColorOcTree.h>
+#include <octomap/OcTree.h>
+#endif
+
+#include "store/store_support.hpp"
+#include "swiftlet/store/octomap_import.hpp"
+
+namespace swiftlet {
+namespace {
+
+using test::Folder;
+using test::Random;
+using Cells = std::map<VoxelIndex, Occupancy>;
+
+constexpr OccupancyThresholds kThresholds;
+
+/// A map with noise, with whole blocks of one state (which OctoMap prunes) and on both sides of 0.
+struct ExportedMap {
+  ExportedMap() {
+    Random random;
+    auto store = TileStore::create(folder / "a.swl", 0.05);
+    for (int i = 0; i < 60; ++i) {
+      const BlockIndex index{random.integer(-4, 4), random.integer(-4, 4), random.integer(-2, 1)};
+      const VoxelBlock block =
+          i % 2 == 0 ? test::random_block(random) : test::block_full_of(random.integer(0, 255));
+      (*store)->evict(index, block, static_cast<std::uint64_t>(i));
+    }
+    EXPECT_TRUE((*store)->close());
+    for (const auto& [index, block] : test::blocks_in(folder / "a.swl")) {
+      for (int offset = 0; offset < kBlockVoxels; ++offset) {
+        const auto state = kThresholds.classify(block.cells[static_cast<std::size_t>(offset)]);
+        if (state != Occupancy::kUnknown) cells[voxel_at(index, offset)] = state;
+        if (state == Occupancy::kOccupied) ++occupied;
+      }
+    }
+  }
+  [[nodiscard]] std::filesystem::path write(const char* format) const {
+    const auto map = load_map(folder / "a.swl");
+    const auto out = folder / (std::string("a.") + format).c_str();
+    const auto done = export_map(format, *map, kThresholds, out);
+    EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().text());
+    EXPECT_FALSE(std::filesystem::exists(out.string() + ".part"));
+    return out;
+  }
+  Folder folder;
+  Cells cells;
+  std::uint64_t occupied = 0;
+};
+
+bool has_tool(const char* name) {
+  return std::system(("command -v " + std::string(name) + " > /dev/null").c_str()) == 0;
+}
+
+std::vector<std::string> lines_of(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The points of an ASCII PCD, as cells; PCL itself wrote it.
+std::vector<VoxelIndex> cells_of_ascii_pcd(const std::filesystem::path& path) {
+  std::vector<VoxelIndex> cells;
+  bool is_data = false;
+  for (const std::string& line : lines_of(path)) {
+    double x = 0;
+    double y = 0;
+    double z = 0;
+    if (is_data && std::sscanf(line.c_str(), "%lf %lf %lf", &x, &y, &z) == 3) {
+      cells.push_back(voxel_containing({x, y, z}, 0.05));
+    }
+    is_data = is_data || line.starts_with("DATA ascii");
+  }
+  std::ranges::sort(cells);
+  return cells;
+}
+
+std::vector<VoxelIndex> occupied_of(const Cells& cells) {
+  std::vector<VoxelIndex> occupied;
+  for (const auto& [v, state] : cells) {
+    if (state == Occupancy::kOccupied) occupied.push_back(v);
+  }
+  return occupied;
+}
+
+TEST(Exporters, pcl_reads_our_ply_and_pcd_with_exactly_the_occupied_cells) {
+  if (!has_tool("pcl_ply2pcd") || !has_tool("pcl_convert_pcd_ascii_binary")) {
+    GTEST_SKIP() << "pcl-tools is not installed";
+  }
+  const ExportedMap map;
+  const auto run = [&](const std::string& command) {
+    ASSERT_EQ(std::system((command + " > /dev/null 2>&1").c_str()), 0) << command;
+  };
+  run("pcl_convert_pcd_ascii_binary " + map.write("pcd").string() + " " +
+      (map.folder / "pcd.txt").string() + " 0");
+  EXPECT_EQ(cells_of_ascii_pcd(map.folder / "pcd.txt"), occupied_of(map.cells));
+
+  run("pcl_ply2pcd -format 0 " + map.write("ply").string() + " " +
+      (map.folder / "ply.pcd").string());
+  EXPECT_EQ(cells_of_ascii_pcd(map.folder / "ply.pcd"), occupied_of(map.cells));
+}
+
+TEST(Exporters, leave_nothing_behind_when_they_fail) {
+  const ExportedMap map;
+  const auto saved = load_map(map.folder / "a.swl");
+  for (const auto& exporter : exporters()) {
+    if (exporter.make == nullptr) continue;
+    const auto failed = exporter.make(*saved, kThresholds, "/nowhere/at/all/a", {});
+    ASSERT_FALSE(failed.has_value()) << exporter.name;
+    EXPECT_EQ(failed.error().code, ErrorCode::kIo);
+    const auto full = exporter.make(*saved, kThresholds, "/proc/a", {});
+    EXPECT_FALSE(full.has_value()) << exporter.name;
+  }
+  const auto unknown = export_map("dwg", *saved, kThresholds, map.folder / "a.dwg");
+  ASSERT_FALSE(unknown.has_value());
+  EXPECT_NE(unknown.error().remedy.find("ply"), std::string::npos);
+}
+
+TEST(Exporters, report_progress_up_to_one) {
+  const ExportedMap map;
+  const auto saved = load_map(map.folder / "a.swl");
+  double last = 0.0;
+  ASSERT_TRUE(export_map("ply", *saved, kThresholds, map.folder / "a.ply", [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  }));
+  EXPECT_EQ(last, 1.0);
+}
+
+#if SWIFTLET_HAS_OCTOMAP
+
+/// Every cell of a tree, whatever was pruned.
+template <class Tree>
+Cells cells_of(const Tree& tree) {
+  Cells cells;
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    const int edge = 1 << (16 - leaf.getDepth());
+    const octomap::OcTreeKey first = leaf.getIndexKey();  // lowest key of the leaf's cube
+    for_each_block({{first[0] - 32768, first[1] - 32768, first[2] - 32768}, {edge, edge, edge}},
+                   [&](const BlockIndex& i) {
+                     cells[{i.x, i.y, i.z}] =
+                         tree.isNodeOccupied(*leaf) ? Occupancy::kOccupied : Occupancy::kFree;
+                   });
+  }
+  return cells;
+}
+
+TEST(Exporters, liboctomap_reads_exactly_our_free_and_occupied_cells_from_bt) {
+  const ExportedMap map;
+  octomap::OcTree tree(1.0);
+  ASSERT_TRUE(tree.readBinary(map.write("bt").string()));
+  EXPECT_EQ(tree.getResolution(), 0.05);
+  EXPECT_EQ(cells_of(tree), map.cells);
+}
+
+TEST(Exporters, liboctomap_reads_exactly_our_free_and_occupied_cells_from_ot) {
+  const ExportedMap map;
+  const std::unique_ptr<octomap::AbstractOcTree> any(
+      octomap::AbstractOcTree::read(map.write("ot").string()));
+  const auto* tree = dynamic_cast<octomap::OcTree*>(any.get());
+  ASSERT_NE(tree, nullptr);
+  EXPECT_EQ(cells_of(*tree), map.cells);
+  // And the very log-odds: one step of the byte is 0.04.
+  const auto [v, state] = *map.cells.begin();
+  const auto block = load_map(map.folder / "a.swl")->find(block_of(v));
+  const auto* node =
+      tree->search(centre_of(v, 0.05).x(), centre_of(v, 0.05).y(), centre_of(v, 0.05).z());
+  ASSERT_NE(node, nullptr);
+  const int steps = block->value().cells[offset_in_block(v)] - kUnknownCell;
+  EXPECT_NEAR(node->getLogOdds(), 0.04 * steps, 1e-5);
+}
+
+TEST(Exporters, refuse_cells_beyond_octomaps_key_space) {
+  Folder folder;
+  {
+    auto store = TileStore::create(folder / "a.swl", 0.05);
+    (*store)->evict({4095, 0, 0}, test::block_full_of(255), 1);  // cells up to 32767: the last
+  }
+  EXPECT_TRUE(export_map("bt", *load_map(folder / "a.swl"), kThresholds, folder / "a.bt"));
+  {
+    auto store = TileStore::create(folder / "b.swl", 0.05);
+    (*store)->evict({4096, 0, 0}, test::block_full_of(255), 1);
+  }
+  const auto beyond = export_map("bt", *load_map(folder / "b.swl"), kThresholds, folder / "b.bt");
+  ASSERT_FALSE(beyond.has_value());
+  EXPECT_EQ(beyond.error().code, ErrorCode::kUnsupported);
+  EXPECT_FALSE(std::filesystem::exists(folder / "b.bt"));
+}
+
+/// What our own reader makes of a file, next to what liboctomap makes of it.
+template <class Tree>
+void expect_same_leaves(const std::filesystem::path& path, const Tree& tree) {
+  std::vector<std::tuple<VoxelIndex, int, bool>> ours;
+  const auto read = read_octomap(path, [&](const OctomapLeaf& leaf) {
+    ours.emplace_back(leaf.first, leaf.edge, leaf.is_occupied);
+  });
+  ASSERT_TRUE(read.has_value()) << read.error().text();
+  std::vector<std::tuple<VoxelIndex, int, bool>> theirs;
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    const octomap::OcTreeKey k = leaf.getIndexKey();
+    theirs.emplace_back(VoxelIndex{k[0] - 32768, k[1] - 32768, k[2] - 32768},
+                        1 << (16 - leaf.getDepth()), tree.isNodeOccupied(*leaf));
+  }
+  std::ranges::sort(ours);
+  std::ranges::sort(theirs);
+  EXPECT_TRUE(ours == theirs) << ours.size() << " leaves, liboctomap has " << theirs.size();
+  EXPECT_EQ(read->nodes, tree.size());
+  EXPECT_EQ(read->voxel_m, tree.getResolution());
+}
+
+TEST(OctomapImport, reads_our_exports_as_liboctomap_does) {
+  const ExportedMap map;
+  octomap::OcTree tree(1.0);
+  ASSERT_TRUE(tree.readBinary(map.write("bt").string()));
+  expect_same_leaves(map.folder / "a.bt", tree);
+  const auto summary = read_octomap(map.write("ot"));
+  ASSERT_TRUE(summary.has_value());
+  EXPECT_EQ(summary->occupied_cells, map.occupied);
+  EXPECT_EQ(summary->occupied_cells + summary->free_cells, map.cells.size());
+}
+
+TEST(OctomapImport, every_truncated_file_is_an_error) {
+  const ExportedMap map;
+  for (const char* format : {"bt", "ot"}) {
+    const auto whole = test::bytes_of(map.write(format));
+    for (std::size_t length = 0; length < whole.size(); length += 1 + whole.size() / 400) {
+      test::write_bytes(map.folder / "cut",
+                        {whole.begin(), whole.begin() + std::ptrdiff_t(length)});
+      EXPECT_FALSE(read_octomap(map.folder / "cut").has_value()) << format << " " << length;
+    }
+  }
+}
+
+std::filesystem::path recorded(const char* name) {
+  const char* set = std::getenv("SWIFTLET_RECORDED");
+  return std::filesystem::path(set != nullptr ? set : SWIFTLET_RECORDED_DEFAULT) / "octomap" / name;
+}
+
+TEST(OctomapImport, reads_recorded_bt_files_as_liboctomap_does) {
+  if (!std::filesystem::exists(recorded("geb079.bt"))) {
+    GTEST_SKIP() << "no recordings at " << recorded("").string();
+  }
+  for (const char* name : {"geb079.bt", "octomap_python_test.bt", "octomap_tutor_sample.bt"}) {
+    octomap::OcTree tree(1.0);
+    ASSERT_TRUE(tree.readBinary(recorded(name).string()));
+    expect_same_leaves(recorded(name), tree);
+  }
+}
+
+TEST(OctomapImport, reads_a_recorded_colour_tree_and_names_its_kind) {
+  const auto path = recorded("octomap_tutor_sample.ot");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no recordings at " << path.string();
+  const std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read(path.string()));
+  const auto* tree = dynamic_cast<octomap::ColorOcTree*>(any.get());
+  ASSERT_NE(tree, nullptr);
+  expect_same_leaves(path, *tree);
+  EXPECT_EQ(read_octomap(path)->kind, "ColorOcTree");
+}
+
+#endif
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "support/seeds.hpp"
+#include "swiftlet/map/rolling_map.hpp"
+#include "swiftlet/store/saved_map.hpp"
+#include "swiftlet/store/tile_store.hpp"
+
+namespace swiftlet::test {
+
+/// A folder of its own for each test; removed at its end.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "swiftlet_store_XXXXXX").string();
+    EXPECT_NE(mkdtemp(name.data()), nullptr);
+    path_ = name;
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] std::filesystem::path operator/(const char* name) const { return path_ / name; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+using Blocks = std::map<BlockIndex, VoxelBlock>;
+
+/// What a map file holds; a failed expectation if it is not sound.
+inline Blocks blocks_in(const std::filesystem::path& path) {
+  Blocks blocks;
+  auto map = load_map(path);
+  EXPECT_TRUE(map.has_value()) << (map ? "" : map.error().text());
+  if (!map) return blocks;
+  auto read = map->for_each_block([&](const BlockIndex& index, const VoxelBlock& b) -> Status {
+    blocks[index] = b;
+    return Done{};
+  });
+  EXPECT_TRUE(read.has_value()) << (read ? "" : read.error().text());
+  return blocks;
+}
+
+inline Blocks blocks_in(const MapSnapshot& map) {
+  Blocks blocks;
+  map.for_each_known_block([&](const BlockIndex& i, const VoxelBlock& b) { blocks[i] = b; });
+  return blocks;
+}
+
+/// A block whose cells all differ from unknown now and then; compresses as badly as any.
+inline VoxelBlock random_block(Random& random) {
+  VoxelBlock block;
+  for (LogOdds& cell : block.cells) cell = static_cast<LogOdds>(random.integer(0, 255));
+  return block;
+}
+
+inline VoxelBlock block_full_of(int value) {
+  VoxelBlock block;
+  block.cells.fill(static_cast<LogOdds>(value));
+  return block;
+}
+
+/// A window of about 4 x 4 x 2 blocks of 0.8 m, which moves as soon as the vehicle does.
+inline RollingMap small_map() {
+  RollingMap::Options options;
+  options.voxel_m = 0.1;
+  options.size_m = {2.4, 2.4, 0.8};
+  options.trigger_m = {0.1, 0.1, 0.1};
+  auto map = RollingMap::create(options);
+  EXPECT_TRUE(map.has_value());
+  return std::move(*map);
+}
+
+inline std::vector<char> bytes_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void write_bytes(const std::filesystem::path& path, const std::vector<char>& bytes) {
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+}  // namespace swiftlet::test

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <gtest/gtest.h>
+
+#include "store/store_support.hpp"
+
+namespace swiftlet {
+namespace {
+
+using namespace std::chrono_literals;
+using test::Folder;
+
+TEST(TileStoreCreation, refuses_to_overwrite_unless_told_and_then_starts_empty) {
+  Folder folder;
+  {
+    auto store = TileStore::create(folder / "a.swl", 0.1).value();
+    store->evict({1, 2, 3}, test::block_full_of(9), 1);
+  }
+  const auto before = test::bytes_of(folder / "a.swl");
+  const auto refused = TileStore::create(folder / "a.swl", 0.1);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
+  EXPECT_EQ(test::bytes_of(folder / "a.swl"), before);
+  auto store = TileStore::create(folder / "a.swl", 0.1, {.overwrite = true});
+  ASSERT_TRUE(store.has_value());
+  ASSERT_TRUE((*store)->close());
+  EXPECT_TRUE(test::blocks_in(folder / "a.swl").empty());
+}
+
+TEST(TileStoreCreation, says_where_it_cannot_write) {
+  for (const char* place : {"/proc/a.swl", "/nowhere/at/all/a.swl"}) {
+    const auto store = TileStore::create(place, 0.1);
+    ASSERT_FALSE(store.has_value()) << place;
+    EXPECT_EQ(store.error().code, ErrorCode::kIo);
+    EXPECT_NE(store.error().text().find(place), std::string::npos) << store.error().text();
+    EXPECT_FALSE(store.error().remedy.empty());
+  }
+}
+
+TEST(TileStoreCreation, refuses_options_that_cannot_be_meant) {
+  Folder folder;
+  for (const TileStoreOptions& bad :
+       {TileStoreOptions{.max_bytes = 1000}, TileStoreOptions{.batch_interval = 0ms},
+        TileStoreOptions{.batch_interval = 1001ms}, TileStoreOptions{.pending_blocks = 0}}) {
+    const auto store = TileStore::create(folder / "a.swl", 0.1, bad);
+    ASSERT_FALSE(store.has_value());
+    EXPECT_EQ(store.error().code, ErrorCode::kInvalidConfig);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.swl"));
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet
