@@ -53,7 +53,7 @@ Action declare_render(CLI::App& parser) {
   CLI::Range scales(1, 256);
   scales.description("");
   parser
-      .add_option("--scale", o->how.cell_px, "pixels per cell, 1 to 256 (default: what fits 1200)")
+      .add_option("--scale", o->how.cell_px, "pixels per cell, 1 to 256 (default: what fits 1600)")
       ->check(scales)
       ->type_name("PX");
   parser.footer(

@@ -14,7 +14,7 @@ namespace swiftlet::app {
 
 struct ViewOptions {
   std::optional<double> z_m;  ///< slice: its height; others: what lies above is cut away [m, world]
-  int cell_px = 0;            ///< edge of a cell in the picture; 0 for what fits 1200 pixels
+  int cell_px = 0;            ///< edge of a cell in the picture; 0 for what fits 1600 pixels
 };
 
 /// Draws the cells of a map that lie inside a box which holds all that is known of it.

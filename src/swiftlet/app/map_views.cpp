@@ -32,7 +32,7 @@ std::span<const Registered<DrawView>> map_views() {
 namespace {
 
 constexpr double kMaxMegapixels = 200.0;
-constexpr double kFitting_px = 1200.0;
+constexpr double kFitting_px = 1600.0;
 
 /// No side of a picture is longer than this, in cells. A double: a box may be wider than an int.
 double wide_cells(const VoxelBox& box) {

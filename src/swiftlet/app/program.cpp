@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <exception>
+#include <new>
+#include <system_error>
 #include <utility>
 
 #include "swiftlet/app/command.hpp"
@@ -26,9 +27,19 @@ int exit_code(const Faults& faults) {
   return std::ranges::any_of(faults, is_usage) ? kWrongUsage : kFailed;
 }
 
+/// fputs, which fmt's print is not, is silent where standard error cannot be written.
 int report(const Faults& faults) {
-  for (const Error& fault : faults) fmt::print(stderr, "swiftlet: {}\n", fault.text());
+  for (const Error& fault : faults)
+    std::fputs(("swiftlet: " + fault.text() + "\n").c_str(), stderr);
   return exit_code(faults);
+}
+
+/// What the command printed counts as done only when it has arrived: `swiftlet list > /dev/full`.
+Faults flushed(Faults faults) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return faults;
+  faults.push_back({ErrorCode::kIo, "standard output", "it cannot be written",
+                    "is the disk full or the reader gone?"});
+  return faults;
 }
 
 /// The first word on the command line is no command.
@@ -75,11 +86,16 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
     if (!chosen) throw CLI::RequiredError("a command");
-    return report(chosen());
+    return report(flushed(chosen()));
   } catch (const CLI::ParseError& stop) {
     return report(program, stop);
-  } catch (const std::exception& unforeseen) {  // out of memory, above all: still one clear line
-    return report({{ErrorCode::kOutOfMemory, {}, unforeseen.what(), {}}});
+  } catch (const std::system_error& refused) {  // fmt, printing
+    return report({{ErrorCode::kIo, "standard output", refused.what(), {}}});
+  } catch (const std::bad_alloc&) {
+    return report({{ErrorCode::kOutOfMemory,
+                    {},
+                    "the memory does not suffice",
+                    "choose larger cells or a smaller window"}});
   }
 }
 

@@ -18,6 +18,12 @@ constexpr std::chrono::milliseconds kLine = 3s;
 constexpr int kBarWidth = 30;
 constexpr const char* kClearLine = "\r\033[K";
 
+/// A flight goes on where its progress cannot be shown; fmt's print would throw.
+void show(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 }  // namespace
 
 std::string progress_text(const ProgressState& s) {
@@ -59,19 +65,18 @@ void Progress::update(std::size_t done) {
   if (now < next_) return;
   const ProgressState state{done, total_, elapsed_s()};
   if (is_terminal_) {
-    fmt::print(stderr, "{}{}{}", kClearLine, progress_bar(state, kBarWidth), progress_text(state));
-    std::fflush(stderr);
+    show(kClearLine + progress_bar(state, kBarWidth) + progress_text(state));
     next_ = now + kRedraw;
   } else {
-    fmt::print(stderr, "{}\n", progress_text(state));
+    show(progress_text(state) + "\n");
     next_ = now + kLine;
   }
 }
 
 void Progress::finish() {
   const ProgressState state{done_, total_, elapsed_s()};
-  if (is_terminal_) fmt::print(stderr, "{}", kClearLine);
-  if (!is_terminal_) fmt::print(stderr, "{}\n", progress_text(state));
+  if (is_terminal_) show(kClearLine);
+  if (!is_terminal_) show(progress_text(state) + "\n");
 }
 
 }  // namespace swiftlet::app

@@ -9,28 +9,33 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <thread>
 
-#include "support/temp_folder.hpp"
-
 namespace swiftlet::test {
 namespace {
 
-constexpr const char* kOut = ".stdout";
-constexpr const char* kErr = ".stderr";
+std::array<int, 2> make_pipe() {
+  std::array<int, 2> ends{-1, -1};
+  EXPECT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
+  return ends;
+}
 
-void redirect(int descriptor, const char* file) {
-  const int opened = open(file, O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  if (opened < 0 || dup2(opened, descriptor) < 0) _exit(126);
+std::string read_all(int descriptor) {
+  std::string text;
+  std::array<char, 4096> buffer;
+  for (ssize_t n = 0; (n = read(descriptor, buffer.data(), buffer.size())) > 0;) {
+    text.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+  return text;
 }
 
 [[noreturn]] void become_program(std::vector<char*> words, const std::filesystem::path& folder,
-                                 std::uint64_t file_limit_bytes) {
+                                 std::uint64_t file_limit_bytes, int out, int err) {
   if (chdir(folder.c_str()) != 0) _exit(126);
-  redirect(STDOUT_FILENO, kOut);
-  redirect(STDERR_FILENO, kErr);
+  if (dup2(out, STDOUT_FILENO) < 0 || dup2(err, STDERR_FILENO) < 0) _exit(126);
   if (file_limit_bytes > 0) {
     const rlimit limit{file_limit_bytes, file_limit_bytes};
     setrlimit(RLIMIT_FSIZE, &limit);
@@ -50,14 +55,23 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
+  const auto out = make_pipe();
+  const auto err = make_pipe();
   process_ = fork();
-  if (process_ == 0) become_program(std::move(pointers), folder, file_limit_bytes);
+  if (process_ == 0) {
+    become_program(std::move(pointers), folder, file_limit_bytes, out[1], err[1]);
+  }
+  close(out[1]);
+  close(err[1]);
+  out_ = out[0];
+  err_ = err[0];
 }
 
 RunningProgram::~RunningProgram() {
-  if (is_over_) return;
-  send(SIGKILL);
+  if (!is_over_) send(SIGKILL);
   has_ended(0);
+  close(out_);
+  close(err_);
 }
 
 bool RunningProgram::has_ended(int options) {
@@ -77,9 +91,11 @@ bool RunningProgram::wait_for_file(const std::string& name) {
 void RunningProgram::send(int signal) const { kill(process_, signal); }
 
 Ended RunningProgram::wait() {
+  // What a command says fits a pipe, so the one that is read second never blocks the program.
+  Ended ended{0, read_all(out_), read_all(err_)};
   has_ended(0);
-  const int code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
-  return {code, content_of(folder_ / kOut), content_of(folder_ / kErr)};
+  ended.exit_code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+  return ended;
 }
 
 Ended run(const std::vector<std::string>& arguments, const std::filesystem::path& folder,

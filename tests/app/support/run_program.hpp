@@ -19,10 +19,11 @@ struct Ended {
   std::string err;
 };
 
-/// The built program `swiftlet`, running in a folder with standard output and error into files.
+/// The built program `swiftlet`, running in a folder, with pipes at its standard output and error.
 class RunningProgram {
  public:
-  /// `file_limit_bytes`: no file may grow beyond it, which is what a full disk looks like; 0 = none.
+  /// `file_limit_bytes`: no file may grow beyond it, which is what a full disk looks like; 0 =
+  /// none.
   RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                  std::uint64_t file_limit_bytes = 0);
   RunningProgram(const RunningProgram&) = delete;
@@ -39,6 +40,8 @@ class RunningProgram {
 
   std::filesystem::path folder_;
   pid_t process_ = -1;
+  int out_ = -1;  // our ends of the pipes
+  int err_ = -1;
   int status_ = 0;
   bool is_over_ = false;
 };
