@@ -1,3 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
-int main() { return 0; }
+
+#include "swiftlet/app/command.hpp"
+
+int main(int argc, char** argv) { return swiftlet::app::run_program(argc, argv); }

@@ -19,7 +19,8 @@ template <class Make>
 struct Registered {
   std::string_view name;
   std::string_view summary;
-  Make make;
+  Make make;                    ///< null where the part was not built
+  std::string_view needs = {};  ///< the build option that such a part waits for, as in "EMBREE"
 };
 
 /// The entry of that name. Errors: kUsage naming what there is; `kind` is the noun, as in "ray

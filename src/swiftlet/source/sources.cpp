@@ -6,30 +6,34 @@
 #include <array>
 #include <string>
 
-// A source is one file and one line here: whether it is built (1, 0 or SWIFTLET_HAS_...), the name
-// the user types, the function at the end of its file, and a sentence for `swiftlet list`.
-#define SWIFTLET_SOURCES(X)                                                                       \
-  X(1, "7scenes", open_seven_scenes_source, "folder of depth images and poses by frame number")   \
-  X(1, "tum", open_tum_source, "TUM RGB-D folder: depth.txt and groundtruth.txt, joined by time") \
-  X(SWIFTLET_HAS_EMBREE, "sim", open_sim_source,                                                  \
-    "simulated D435 and T265 in a built-in scene or a .yaml file")
+// A source is one file and one line here: ALWAYS or the build option SWIFTLET_WITH_... that it
+// needs, the name the user types, the function at the end of its file, and a sentence for
+// `swiftlet list`.
+#define SWIFTLET_SOURCES(X)                                            \
+  X(ALWAYS, "7scenes", open_seven_scenes_source,                       \
+    "folder of depth images and poses by frame number")                \
+  X(ALWAYS, "tum", open_tum_source,                                    \
+    "TUM RGB-D folder: depth.txt and groundtruth.txt, joined by time") \
+  X(EMBREE, "sim", open_sim_source, "simulated D435 and T265 in a built-in scene or a .yaml file")
 
 // An opener whose part was not built must not even be named: there is nothing to link.
 #define SWIFTLET_IF_BUILT_1(opener) opener
 #define SWIFTLET_IF_BUILT_0(opener) nullptr
-#define SWIFTLET_IF_BUILT(built, opener) SWIFTLET_IF_BUILT_##built(opener)
+#define SWIFTLET_PICK(built, opener) SWIFTLET_IF_BUILT_##built(opener)
+#define SWIFTLET_IF_BUILT(built, opener) SWIFTLET_PICK(built, opener)
+#define SWIFTLET_HAS_ALWAYS 1
 
 namespace swiftlet {
 
-#define SWIFTLET_DECLARE(built, name, opener, summary) \
+#define SWIFTLET_DECLARE(option, name, opener, summary) \
   Expected<FrameSourcePtr> opener(std::string_view rest);
 SWIFTLET_SOURCES(SWIFTLET_DECLARE)
 #undef SWIFTLET_DECLARE
 
 namespace {
 
-#define SWIFTLET_ROW(built, name, opener, summary) \
-  Registered<OpenSource>{name, summary, SWIFTLET_IF_BUILT(built, opener)},
+#define SWIFTLET_ROW(option, name, opener, summary) \
+  Registered<OpenSource>{name, summary, SWIFTLET_IF_BUILT(SWIFTLET_HAS_##option, opener), #option},
 constexpr auto kSources = std::to_array({SWIFTLET_SOURCES(SWIFTLET_ROW)});
 #undef SWIFTLET_ROW
 

@@ -5,17 +5,18 @@
 
 #include <array>
 
-// An exporter is one file, which ends in export_<name>(), and one line here: name, built or not,
-// summary.
-#define SWIFTLET_EXPORTERS(X)                                                                     \
-  X(ply, 1, "occupied cells as points with log-odds, coloured by height (CloudCompare, MeshLab)") \
-  X(pcd, 1, "occupied cells as points, intensity = log-odds (PCL)")                               \
-  X(bt, SWIFTLET_HAS_OCTOMAP, "OctoMap, free and occupied cells")                                 \
-  X(ot, SWIFTLET_HAS_OCTOMAP, "OctoMap with the log-odds of each free and occupied cell")
+// An exporter is one file, which ends in export_<name>(), and one line here: name, ALWAYS
+// or the build option SWIFTLET_WITH_... that it needs, summary.
+#define SWIFTLET_EXPORTERS(X)                                                             \
+  X(ply, ALWAYS,                                                                          \
+    "occupied cells as points with log-odds, coloured by height (CloudCompare, MeshLab)") \
+  X(pcd, ALWAYS, "occupied cells as points, intensity = log-odds (PCL)")                  \
+  X(bt, OCTOMAP, "OctoMap, free and occupied cells")                                      \
+  X(ot, OCTOMAP, "OctoMap with the log-odds of each free and occupied cell")
 
 namespace swiftlet {
 
-#define SWIFTLET_DECLARE(name, is_built, summary)                         \
+#define SWIFTLET_DECLARE(name, option, summary)                           \
   Status export_##name(const SavedMap& map, const OccupancyThresholds& t, \
                        const std::filesystem::path& out, const ExportProgress& progress);
 SWIFTLET_EXPORTERS(SWIFTLET_DECLARE)
@@ -24,12 +25,16 @@ SWIFTLET_EXPORTERS(SWIFTLET_DECLARE)
 std::span<const Registered<ExportMap>> exporters() {
 #define SWIFTLET_MAKE_0(name) nullptr
 #define SWIFTLET_MAKE_1(name) export_##name
-#define SWIFTLET_MAKE(is_built, name) SWIFTLET_MAKE_##is_built(name)
-#define SWIFTLET_LINE(name, is_built, summary) \
-  Registered<ExportMap>{#name, summary, SWIFTLET_MAKE(is_built, name)},
+#define SWIFTLET_PICK(is_built, name) SWIFTLET_MAKE_##is_built(name)
+#define SWIFTLET_MAKE(is_built, name) SWIFTLET_PICK(is_built, name)
+#define SWIFTLET_HAS_ALWAYS 1
+#define SWIFTLET_LINE(name, option, summary) \
+  Registered<ExportMap>{#name, summary, SWIFTLET_MAKE(SWIFTLET_HAS_##option, name), #option},
   static constexpr std::array kExporters{SWIFTLET_EXPORTERS(SWIFTLET_LINE)};
 #undef SWIFTLET_LINE
+#undef SWIFTLET_HAS_ALWAYS
 #undef SWIFTLET_MAKE
+#undef SWIFTLET_PICK
 #undef SWIFTLET_MAKE_1
 #undef SWIFTLET_MAKE_0
   return kExporters;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "swiftlet/app/command.hpp"
+#include "swiftlet/app/map_reader.hpp"
+#include "swiftlet/store/exporters.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+struct ExportOptions {
+  std::string map;
+  std::string format;
+  std::string out;
+};
+
+Faults write_export(const ExportOptions& options) {
+  auto map = load_map(options.map);
+  if (!map) return fault_of(std::move(map));
+  auto thresholds = thresholds_of(*map);
+  if (!thresholds) return fault_of(std::move(thresholds));
+  auto written = export_map(options.format, *map, *thresholds, options.out);
+  if (!written) return fault_of(std::move(written));
+  fmt::print("{}\n", options.out);
+  return {};
+}
+
+}  // namespace
+
+Action declare_export(CLI::App& parser) {
+  auto o = std::make_shared<ExportOptions>();
+  parser.add_option("MAP", o->map, "map file")->type_name("")->required();
+  parser.add_option("--to", o->format, "format, see 'swiftlet list exporters'")
+      ->type_name("NAME")
+      ->required();
+  parser.add_option("-o,--out", o->out, "file to write")->type_name("FILE")->required();
+  parser.footer(
+      "Examples:\n"
+      "  swiftlet export flat.swl --to ply -o flat.ply    points for CloudCompare or MeshLab\n"
+      "  swiftlet export flat.swl --to bt -o flat.bt      an OctoMap for ROS");
+  return [o] { return write_export(*o); };
+}
+
+}  // namespace swiftlet::app

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "swiftlet/app/command.hpp"
+#include "swiftlet/app/map_reader.hpp"
+#include "swiftlet/app/summary.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+struct InfoOptions {
+  std::string map;
+  bool as_json = false;
+};
+
+/// The corners of the known cells [m, world].
+struct Bounds {
+  Eigen::Vector3d low;
+  Eigen::Vector3d high;
+};
+
+std::optional<Bounds> bounds_of(const SavedMap& map, const MapSummary& summary) {
+  if (!summary.bounds) return std::nullopt;
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * map.voxel_m());
+  return Bounds{centre_of(summary.bounds->first, map.voxel_m()) - half,
+                centre_of(summary.bounds->last, map.voxel_m()) + half};
+}
+
+std::uintmax_t bytes_of(const SavedMap& map) {
+  std::error_code unreadable;
+  const auto bytes = std::filesystem::file_size(map.path(), unreadable);
+  return unreadable ? 0 : bytes;
+}
+
+void print_text(const SavedMap& map, const MapSummary& summary) {
+  fmt::print("{} ({})\n", map.path().string(), size_text(bytes_of(map)));
+  fmt::print("  frames     {}\n", map.frames());
+  fmt::print("  cells      {} occupied, {} free, {} unknown in {} blocks\n",
+             summary.count(Occupancy::kOccupied), summary.count(Occupancy::kFree),
+             summary.count(Occupancy::kUnknown), map.block_count());
+  fmt::print("  cell size  {} m\n", map.voxel_m());
+  if (const auto b = bounds_of(map, summary)) {
+    fmt::print("  bounds     x {:.2f} .. {:.2f}, y {:.2f} .. {:.2f}, z {:.2f} .. {:.2f} m\n",
+               b->low.x(), b->high.x(), b->low.y(), b->high.y(), b->low.z(), b->high.z());
+  }
+  for (const auto& [name, text] : map.meta()) {
+    if (name == "frames" || name == "voxel_m") continue;
+    if (text.find('\n') == std::string::npos) {
+      fmt::print("  {:10} {}\n", name, text);
+      continue;
+    }
+    fmt::print("  {}\n", name);
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      fmt::print("    {}\n", text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  }
+}
+
+void print_json(const SavedMap& map, const MapSummary& summary) {
+  nlohmann::ordered_json json{
+      {"path", map.path().string()},
+      {"bytes", bytes_of(map)},
+      {"frames", map.frames()},
+      {"voxel_m", map.voxel_m()},
+      {"blocks", map.block_count()},
+      {"cells",
+       {{"occupied", summary.count(Occupancy::kOccupied)},
+        {"free", summary.count(Occupancy::kFree)},
+        {"unknown", summary.count(Occupancy::kUnknown)}}},
+      {"meta", map.meta()},
+  };
+  if (const auto b = bounds_of(map, summary)) {
+    json["bounds_m"] = {{"low", {b->low.x(), b->low.y(), b->low.z()}},
+                        {"high", {b->high.x(), b->high.y(), b->high.z()}}};
+  }
+  fmt::print("{}\n", json.dump(2));
+}
+
+Faults info(const InfoOptions& options) {
+  auto map = load_map(options.map);
+  if (!map) return fault_of(std::move(map));
+  auto thresholds = thresholds_of(*map);
+  if (!thresholds) return fault_of(std::move(thresholds));
+  auto summary = summarize(*map, *thresholds);
+  if (!summary) return fault_of(std::move(summary));
+  options.as_json ? print_json(*map, *summary) : print_text(*map, *summary);
+  return {};
+}
+
+}  // namespace
+
+Action declare_info(CLI::App& parser) {
+  auto o = std::make_shared<InfoOptions>();
+  parser.add_option("MAP", o->map, "map file")->type_name("")->required();
+  parser.add_flag("--json", o->as_json, "one JSON object, for machines");
+  parser.footer(
+      "Examples:\n"
+      "  swiftlet info flat.swl\n"
+      "  swiftlet info flat.swl --json | jq .cells");
+  return [o] { return info(*o); };
+}
+
+}  // namespace swiftlet::app

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <filesystem>
+#include <memory>
+
+#include "swiftlet/app/command.hpp"
+#include "swiftlet/app/config_file.hpp"
+#include "swiftlet/app/interrupt.hpp"
+#include "swiftlet/app/mapping_session.hpp"
+#include "swiftlet/app/progress.hpp"
+#include "swiftlet/source/sources.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+struct MapOptions {
+  std::string source;
+  std::string out = "map.swl";
+  bool overwrite = false;
+  ConfigInput config;
+  std::string rays;
+  std::string store = "keep";
+  std::uint64_t max_bytes = 0;
+  std::size_t frames = 0;  ///< 0 for all
+  bool as_json = false;
+};
+
+/// Told before the flight and not after it.
+Status check_output(const MapOptions& options) {
+  std::error_code unreadable;
+  if (options.overwrite || !std::filesystem::exists(options.out, unreadable)) return Done{};
+  return fail(ErrorCode::kUsage, options.out, "the file exists",
+              "add --overwrite or choose another name with -o");
+}
+
+tl::expected<LoadedConfig, Faults> config_of(const MapOptions& options) {
+  ConfigInput input = options.config;
+  if (!options.rays.empty()) input.settings.push_back("integrate.ray_method=" + options.rays);
+  return load_config(input);
+}
+
+/// What the source knows of its stereo pair holds, unless the user says otherwise.
+void adopt_baseline(const SourceInfo& info, LoadedConfig& config) {
+  const bool is_given = config.places.contains("sensor.baseline_m");
+  if (info.baseline_m && !is_given) config.mapper.sensor.baseline_m = *info.baseline_m;
+}
+
+SessionOptions session_options(const MapOptions& options, const SourceInfo& info,
+                               const MapperConfig& config) {
+  SessionOptions session;
+  session.path = options.out;
+  session.store.policy = options.store == "keep" ? StorePolicy::kKeep : StorePolicy::kDrop;
+  session.store.max_bytes = options.max_bytes;
+  session.store.overwrite = options.overwrite;
+  session.meta = {{"config", config_to_yaml(config)},
+                  {"source", info.uri},
+                  {"native_up_axis", info.native_up_axis},
+                  {"writer", "swiftlet " SWIFTLET_VERSION},
+                  {"created", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}};
+  return session;
+}
+
+/// Maps frame by frame to the end of the source, the limit, an error or Ctrl-C.
+Status fly(FrameSource& source, MappingSession& session, const MapOptions& options,
+           const InterruptGuard& interrupt) {
+  Progress progress(options.frames > 0 ? options.frames : source.info().frame_count);
+  MappingSummary& summary = session.summary();
+  Status outcome = Done{};
+  for (std::size_t done = 0; options.frames == 0 || done < options.frames;) {
+    summary.was_interrupted = interrupt.is_interrupted();
+    if (summary.was_interrupted) break;
+    auto frame = source.next();
+    if (!frame) outcome = forward_error(std::move(frame));
+    if (!outcome || !*frame) break;
+    outcome = session.integrate(**frame);
+    if (!outcome) break;
+    progress.update(++done);
+  }
+  summary.elapsed_s = progress.elapsed_s();
+  summary.source_tally = source.tally();
+  progress.finish();
+  return outcome;
+}
+
+Error nothing_mapped(const MappingSummary& summary, const MapperConfig& config) {
+  if (summary.was_interrupted) {
+    return {ErrorCode::kNotFound, summary.source, "interrupted before anything was mapped", {}};
+  }
+  std::string reasons;
+  for (const auto& [reason, count] : summary.dropped()) {
+    reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
+  }
+  return {ErrorCode::kCorruptInput, summary.source,
+          fmt::format("no frame could be mapped ({})", reasons.empty() ? "there is none" : reasons),
+          fmt::format("check its poses and that it has depth readings from {} to {} m",
+                      config.depth.min_range_m, config.depth.max_range_m)};
+}
+
+/// Saves what there is, whether the flight ended well or not, and tells of it.
+Faults land(MappingSession& session, const MapperConfig& config, Status&& flight, bool as_json) {
+  Faults faults;
+  if (!flight) faults.push_back(std::move(flight).error());
+  if (!session.has_map()) {
+    if (faults.empty()) faults.push_back(nothing_mapped(session.summary(), config));
+    return faults;
+  }
+  if (auto saved = session.save(); !saved) {
+    if (faults.empty()) faults.push_back(std::move(saved).error());
+    return faults;
+  }
+  fmt::print("{}", as_json ? summary_json(session.summary()) : summary_text(session.summary()));
+  return faults;
+}
+
+Faults map(const MapOptions& options) {
+  if (auto free = check_output(options); !free) return fault_of(std::move(free));
+  auto config = config_of(options);
+  if (!config) return std::move(config).error();
+  auto source = open_source(options.source);
+  if (!source) return fault_of(std::move(source));
+  const SourceInfo& info = (*source)->info();
+  adopt_baseline(info, *config);
+
+  auto session =
+      MappingSession::create(config->mapper, session_options(options, info, config->mapper));
+  if (!session) return fault_of(std::move(session));
+  (*session)->summary().source = info.uri;
+  const InterruptGuard interrupt;  // until the map is saved
+  Status flight = fly(**source, **session, options, interrupt);
+  return land(**session, config->mapper, std::move(flight), options.as_json);
+}
+
+}  // namespace
+
+Action declare_map(CLI::App& parser) {
+  auto o = std::make_shared<MapOptions>();
+  // Without their descriptions, which would stand in the help twice.
+  CLI::Range positive(1, 1'000'000'000);
+  positive.description("");
+  CLI::AsSizeValue size(false);
+  size.description("");
+  parser.add_option("SOURCE", o->source, "where frames come from, as KIND:PLACE")
+      ->type_name("")
+      ->required();
+  parser.add_option("-o,--out", o->out, "map file to write")
+      ->type_name("FILE")
+      ->capture_default_str();
+  parser.add_flag("--overwrite", o->overwrite, "replace the map file if there is one");
+  parser.add_option("--config", o->config.file, "parameters, as a YAML file")->type_name("FILE");
+  parser.add_option("--set", o->config.settings, "one parameter, as in map.voxel_m=0.1")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  parser.add_option("--rays", o->rays, "ray method, see 'swiftlet list rays'")->type_name("NAME");
+  parser.add_option("--frames", o->frames, "stop after this many frames")
+      ->check(positive)
+      ->type_name("N");
+  parser.add_option("--store", o->store, "what leaves the window: keep it in the file or drop it")
+      ->check(CLI::IsMember({"keep", "drop"}))
+      ->capture_default_str();
+  parser
+      .add_option("--max-bytes", o->max_bytes, "cap of the map file, as in 500MB; oldest go first")
+      ->transform(size)
+      ->type_name("SIZE");
+  parser.add_flag("--json", o->as_json, "the summary as one JSON object, for machines");
+  parser.footer(
+      "Examples:\n"
+      "  swiftlet map 7scenes:redkitchen/seq-01 -o kitchen.swl\n"
+      "  swiftlet map tum:freiburg1_room --set map.voxel_m=0.05 --set depth.downsample=4\n"
+      "  swiftlet map sim:apartment --config flight.yaml --overwrite\n"
+      "'swiftlet list sources' tells every KIND, 'swiftlet list parameters' every KEY.\n"
+      "Ctrl-C stops the flight and saves what was mapped (exit code 0); a second one gives up.");
+  return [o] { return map(*o); };
+}
+
+}  // namespace swiftlet::app

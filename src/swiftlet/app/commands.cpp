@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <array>
+
+#include "swiftlet/app/command.hpp"
+
+// A subcommand is one file, which ends in declare_<name>(), and one line here.
+#define SWIFTLET_COMMANDS(X)                                    \
+  X(map, "build a map from a recorded or simulated flight")     \
+  X(info, "tell what a map file holds and where it comes from") \
+  X(render, "draw a map as a PNG picture")                      \
+  X(export, "write a map in another program's format")          \
+  X(check, "look for faults in map files and config files")     \
+  X(list, "list every source, method, format, view, parameter")
+
+namespace swiftlet::app {
+
+#define SWIFTLET_DECLARE(name, summary) Action declare_##name(CLI::App& parser);
+SWIFTLET_COMMANDS(SWIFTLET_DECLARE)
+#undef SWIFTLET_DECLARE
+
+std::span<const Registered<DeclareCommand>> commands() {
+#define SWIFTLET_LINE(name, summary) Registered<DeclareCommand>{#name, summary, declare_##name},
+  static constexpr std::array kCommands{SWIFTLET_COMMANDS(SWIFTLET_LINE)};
+#undef SWIFTLET_LINE
+  return kCommands;
+}
+
+}  // namespace swiftlet::app

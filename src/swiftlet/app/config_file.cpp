@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/app/config_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "swiftlet/app/config_value.hpp"
+#include "swiftlet/app/nearest_name.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+/// One parameter as the user wrote it.
+struct Setting {
+  std::string key;
+  YAML::Node value;
+  std::string place;  ///< "flight.yaml:3" or "--set"
+};
+using Settings = std::vector<Setting>;
+
+std::vector<std::string> known_keys() {
+  std::vector<std::string> keys;
+  const MapperConfig defaults;
+  visit_config(defaults,
+               [&](const ConfigField& field, const auto&) { keys.emplace_back(field.key); });
+  return keys;
+}
+
+Error invalid(std::string where, std::string what, std::string remedy) {
+  return {ErrorCode::kInvalidConfig, std::move(where), std::move(what), std::move(remedy)};
+}
+
+/// Groups of keys become dotted keys: {map: {voxel_m: 0.1}} is map.voxel_m = 0.1.
+void flatten(const YAML::Node& group, const std::string& prefix, const std::string& place,
+             Settings& settings) {
+  for (const auto& entry : group) {
+    const std::string key = prefix + (entry.first.IsScalar() ? entry.first.Scalar() : "?");
+    if (entry.second.IsMap()) {
+      flatten(entry.second, key + ".", place, settings);
+    } else if (!(entry.second.IsNull() && prefix.empty())) {  // "map:" with nothing below is fine
+      const int line = entry.first.Mark().line + 1;
+      settings.push_back({key, entry.second, fmt::format("{}:{}", place, line)});
+    }
+  }
+}
+
+tl::expected<Settings, Faults> settings_of(const std::string& yaml, const std::string& place) {
+  Settings settings;
+  try {
+    const YAML::Node root = YAML::Load(yaml);
+    if (root.IsMap()) {
+      flatten(root, "", place, settings);
+    } else if (root.IsDefined() && !root.IsNull()) {
+      return tl::make_unexpected(Faults{
+          invalid(place, "the file does not hold 'key: value' lines",
+                  "write groups of parameters; 'swiftlet list parameters' tells which there are")});
+    }
+  } catch (const YAML::Exception& e) {
+    return tl::make_unexpected(
+        Faults{invalid(fmt::format("{}:{}", place, e.mark.line + 1), "this is not YAML: " + e.msg,
+                       "mend the line or the one before it")});
+  }
+  return settings;
+}
+
+/// "map.voxel_m=0.1" as given with --set.
+tl::expected<Settings, Faults> settings_of_option(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) {
+    return tl::make_unexpected(
+        Faults{invalid("--set " + text, "there is no '='", "write --set key=value")});
+  }
+  try {
+    return Settings{{text.substr(0, equals), YAML::Load(text.substr(equals + 1)), "--set"}};
+  } catch (const YAML::Exception& e) {
+    return tl::make_unexpected(
+        Faults{invalid("--set " + text, "the value is not YAML: " + e.msg, "quote it")});
+  }
+}
+
+Error unknown_key(const Setting& setting) {
+  const auto meant = nearest_name(setting.key, known_keys());
+  return invalid(setting.place, fmt::format("there is no parameter '{}'", setting.key),
+                 meant ? fmt::format("did you mean {}", *meant)
+                       : "'swiftlet list parameters' tells which there are");
+}
+
+void apply(const Setting& setting, LoadedConfig& config, Faults& faults) {
+  bool is_known = false;
+  visit_config(config.mapper, [&](const ConfigField& field, auto& member) {
+    if (field.key != setting.key) return;
+    is_known = true;
+    auto read = read_value(field.key, setting.value, member);
+    if (read) return;
+    Error fault = std::move(read).error();
+    fault.where = fmt::format("{}: {}", setting.place, setting.key);
+    faults.push_back(std::move(fault));
+  });
+  if (!is_known) faults.push_back(unknown_key(setting));
+  config.places[setting.key] = setting.place;
+}
+
+/// A fault names its key; adds the line where the user wrote it.
+void add_place(Error& fault, const LoadedConfig& config) {
+  const auto found = config.places.find(fault.where);
+  if (found == config.places.end()) return;
+  fault.where = fmt::format("{}: {}", found->second, found->first);
+}
+
+tl::expected<LoadedConfig, Faults> checked(const Settings& settings) {
+  LoadedConfig config;
+  Faults faults;
+  for (const Setting& setting : settings) {
+    const auto earlier = config.places.find(setting.key);
+    if (earlier != config.places.end() && setting.place != "--set") {
+      faults.push_back(invalid(setting.place, fmt::format("'{}' stands here again", setting.key),
+                               fmt::format("it was given at {}: keep one", earlier->second)));
+    }
+    apply(setting, config, faults);
+  }
+  if (!faults.empty()) return tl::make_unexpected(std::move(faults));
+  faults = config.mapper.faults();
+  if (faults.empty()) return config;
+  for (Error& fault : faults) add_place(fault, config);
+  return tl::make_unexpected(std::move(faults));
+}
+
+Expected<std::string> read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return fail(ErrorCode::kNotFound, path, "the config file cannot be opened",
+                "check the path and that you may read it");
+  }
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (file.bad())
+    return fail(ErrorCode::kIo, path, "the config file cannot be read", "is it a folder?");
+  return text;
+}
+
+}  // namespace
+
+tl::expected<LoadedConfig, Faults> load_config(const ConfigInput& input) {
+  Settings settings;
+  const auto append = [&](Settings&& more) {
+    settings.insert(settings.end(), more.begin(), more.end());
+  };
+  if (!input.file.empty()) {
+    auto text = read_text(input.file);
+    if (!text) return tl::make_unexpected(fault_of(std::move(text)));
+    auto from_file = settings_of(*text, input.file);
+    if (!from_file) return tl::make_unexpected(std::move(from_file).error());
+    append(std::move(*from_file));
+  }
+  for (const std::string& option : input.settings) {
+    auto from_option = settings_of_option(option);
+    if (!from_option) return tl::make_unexpected(std::move(from_option).error());
+    append(std::move(*from_option));
+  }
+  return checked(settings);
+}
+
+tl::expected<LoadedConfig, Faults> parse_config(const std::string& yaml, const std::string& place) {
+  auto settings = settings_of(yaml, place);
+  if (!settings) return tl::make_unexpected(std::move(settings).error());
+  return checked(*settings);
+}
+
+std::string config_to_yaml(const MapperConfig& config) {
+  std::string yaml;
+  std::string group;
+  visit_config(config, [&](const ConfigField& field, const auto& value) {
+    const auto dot = field.key.find('.');
+    if (field.key.substr(0, dot) != group) {
+      group = field.key.substr(0, dot);
+      yaml += group + ":\n";
+    }
+    yaml += fmt::format("  {}: {}\n", field.key.substr(dot + 1), value_text(value));
+  });
+  return yaml;
+}
+
+}  // namespace swiftlet::app

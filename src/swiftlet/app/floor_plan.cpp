@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/app/floor_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swiftlet::app {
+namespace {
+
+constexpr int kMargin_px = 28;
+constexpr int kTick_px = 6;
+constexpr int kLongTick_px = 12;
+constexpr Colour kPaper{255, 255, 255};
+constexpr Colour kInk{70, 70, 70};
+constexpr Colour kOriginInk{214, 39, 40};
+
+}  // namespace
+
+FloorPlan::FloorPlan(const VoxelBox& box, double voxel_m, int cell_px)
+    : box_(box),
+      voxel_m_(voxel_m),
+      cell_px_(cell_px),
+      picture_((box.last.y - box.first.y + 1) * cell_px + 2 * kMargin_px,
+               (box.last.x - box.first.x + 1) * cell_px + 2 * kMargin_px, kPaper) {}
+
+void FloorPlan::fill_column(std::int32_t x, std::int32_t y, Colour colour) {
+  const int left = kMargin_px + (box_.last.y - y) * cell_px_;
+  const int top = kMargin_px + (box_.last.x - x) * cell_px_;
+  fill_rectangle(picture_, left, top, left + cell_px_, top + cell_px_, colour);
+}
+
+int FloorPlan::column_px(double y_m) const {
+  return kMargin_px + static_cast<int>(std::lround((box_.last.y + 1 - y_m / voxel_m_) * cell_px_));
+}
+
+int FloorPlan::row_px(double x_m) const {
+  return kMargin_px + static_cast<int>(std::lround((box_.last.x + 1 - x_m / voxel_m_) * cell_px_));
+}
+
+void FloorPlan::draw_ticks() {
+  const auto metres_in = [this](std::int32_t first, std::int32_t last, auto&& draw) {
+    const double end_m = (last + 1) * voxel_m_;
+    for (double m = std::ceil(first * voxel_m_); m <= end_m; m += 1.0) {
+      draw(m, std::fmod(m, 5.0) == 0.0 ? kLongTick_px : kTick_px);
+    }
+  };
+  const int right = picture_.width() - kMargin_px;
+  const int bottom = picture_.height() - kMargin_px;
+  metres_in(box_.first.y, box_.last.y, [&](double y_m, int length) {
+    const int u = column_px(y_m);
+    fill_rectangle(picture_, u, kMargin_px - 2 - length, u + 1, kMargin_px - 2, kInk);
+    fill_rectangle(picture_, u, bottom + 2, u + 1, bottom + 2 + length, kInk);
+  });
+  metres_in(box_.first.x, box_.last.x, [&](double x_m, int length) {
+    const int v = row_px(x_m);
+    fill_rectangle(picture_, kMargin_px - 2 - length, v, kMargin_px - 2, v + 1, kInk);
+    fill_rectangle(picture_, right + 2, v, right + 2 + length, v + 1, kInk);
+  });
+}
+
+void FloorPlan::draw_scale_bar() {
+  const int metre_px = static_cast<int>(std::lround(cell_px_ / voxel_m_));
+  const int bottom = picture_.height() - 4;
+  fill_rectangle(picture_, kMargin_px, bottom - 5, kMargin_px + metre_px, bottom, kInk);
+  fill_rectangle(picture_, kMargin_px + metre_px / 2, bottom - 4, kMargin_px + metre_px - 1,
+                 bottom - 1, kPaper);
+}
+
+void FloorPlan::draw_origin() {
+  const int u = column_px(0.0);
+  const int v = row_px(0.0);
+  fill_rectangle(picture_, u - 6, v - 1, u + 7, v + 2, kOriginInk);
+  fill_rectangle(picture_, u - 1, v - 6, u + 2, v + 7, kOriginInk);
+}
+
+Picture FloorPlan::finish() && {
+  draw_ticks();
+  draw_scale_bar();
+  draw_origin();
+  return std::move(picture_);
+}
+
+Column column_at(const LoadedMap& map, const VoxelBox& box, std::int32_t x, std::int32_t y) {
+  Column column;
+  for (std::int32_t z = box.first.z; z <= box.last.z; ++z) {
+    const Occupancy cell = map.state({x, y, z});
+    column.free += cell == Occupancy::kFree ? 1 : 0;
+    if (cell != Occupancy::kOccupied) continue;
+    ++column.occupied;
+    column.highest = z;
+  }
+  return column;
+}
+
+std::optional<std::int32_t> lowest_matter(const LoadedMap& map, const VoxelBox& box) {
+  std::optional<std::int32_t> lowest;
+  map.for_each_known_cell([&](const VoxelIndex& v, Occupancy state) {
+    if (state == Occupancy::kOccupied && box.contains(v))
+      lowest = std::min(lowest.value_or(v.z), v.z);
+  });
+  return lowest;
+}
+
+VoxelBox cut_box(const VoxelBox& box, double voxel_m, const ViewOptions& options) {
+  VoxelBox cut = box;
+  if (!options.z_m) return cut;
+  const double top = std::floor(*options.z_m / voxel_m);
+  cut.last.z = static_cast<std::int32_t>(
+      std::clamp(top, static_cast<double>(box.first.z) - 1.0, static_cast<double>(box.last.z)));
+  return cut;
+}
+
+}  // namespace swiftlet::app

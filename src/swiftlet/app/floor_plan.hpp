@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include "swiftlet/app/map_view.hpp"
+
+namespace swiftlet::app {
+
+/// A picture of the world from above, one square per column of cells: x forward is up, y left is
+/// left. Around it a margin with a tick every metre (longer every five) and a bar of one metre in
+/// the lower left corner; a cross marks the world origin, where the flight began.
+class FloorPlan {
+ public:
+  FloorPlan(const VoxelBox& box, double voxel_m, int cell_px);
+
+  /// Colours the square of column (x, y). REQUIRES: the column lies in the box.
+  void fill_column(std::int32_t x, std::int32_t y, Colour colour);
+
+  /// Draws ticks, scale bar and origin over the cells and hands the picture out.
+  [[nodiscard]] Picture finish() &&;
+
+ private:
+  [[nodiscard]] int column_px(double y_m) const;  // pixel column of a world y
+  [[nodiscard]] int row_px(double x_m) const;     // pixel row of a world x
+  void draw_ticks();
+  void draw_scale_bar();
+  void draw_origin();
+
+  VoxelBox box_;
+  double voxel_m_;
+  int cell_px_;
+  Picture picture_;
+};
+
+/// What a column of cells holds, within a box.
+struct Column {
+  int occupied = 0;
+  int free = 0;
+  std::int32_t highest = 0;  ///< z of the highest occupied cell; 0 if there is none
+};
+[[nodiscard]] Column column_at(const LoadedMap& map, const VoxelBox& box, std::int32_t x,
+                               std::int32_t y);
+
+/// z of the lowest occupied cell in a box: the foot of the scale of heights.
+[[nodiscard]] std::optional<std::int32_t> lowest_matter(const LoadedMap& map, const VoxelBox& box);
+
+/// The box without what lies above options.z_m.
+[[nodiscard]] VoxelBox cut_box(const VoxelBox& box, double voxel_m, const ViewOptions& options);
+
+/// Calls visit(x, y) for every column of a box.
+template <class Visit>
+void for_each_column(const VoxelBox& box, Visit&& visit) {
+  for (std::int32_t x = box.first.x; x <= box.last.x; ++x) {
+    for (std::int32_t y = box.first.y; y <= box.last.y; ++y) visit(x, y);
+  }
+}
+
+}  // namespace swiftlet::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "swiftlet/app/loaded_map.hpp"
+#include "swiftlet/app/picture.hpp"
+#include "swiftlet/base/registry.hpp"
+
+namespace swiftlet::app {
+
+struct ViewOptions {
+  std::optional<double> z_m;  ///< slice: its height; others: what lies above is cut away [m, world]
+  int cell_px = 0;            ///< edge of a cell in the picture; 0 for what fits 1600 pixels
+};
+
+/// Draws the cells of a map that lie inside a box which holds all that is known of it.
+using DrawView = Picture (*)(const LoadedMap& map, const VoxelBox& box, const ViewOptions& options);
+
+/// All views there are.
+[[nodiscard]] std::span<const Registered<DrawView>> map_views();
+
+/// Draws a map. Errors: kUsage for an unknown view or a picture above 200 megapixels; kNotFound if
+/// the map holds no free or occupied cell to draw.
+[[nodiscard]] Expected<Picture> draw_view(std::string_view view, const LoadedMap& map,
+                                          const ViewOptions& options);
+
+}  // namespace swiftlet::app

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/app/mapping_session.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "swiftlet/store/saved_map.hpp"
+
+namespace swiftlet::app {
+
+Expected<std::unique_ptr<MappingSession>> MappingSession::create(const MapperConfig& config,
+                                                                 const SessionOptions& options) {
+  std::unique_ptr<MappingSession> session(new MappingSession(options));
+  auto mapper = Mapper::create(config, &session->archive_);
+  if (!mapper) return forward_error(std::move(mapper));
+  session->mapper_ = std::make_unique<Mapper>(std::move(*mapper));
+  return session;
+}
+
+void MappingSession::book(const MapUpdate& update) {
+  ++summary_.verdicts[static_cast<std::size_t>(update.verdict)];
+  if (update.verdict != FrameVerdict::kIntegrated) return;
+  summary_.latency.add(update.times);
+  summary_.blocks_evicted += update.shift.blocks_evicted;
+  summary_.blocks_restored += update.shift.blocks_restored;
+  summary_.memory_bytes = mapper_->memory_bytes();
+}
+
+Status MappingSession::create_file() {
+  auto store =
+      TileStore::create(options_.path, mapper_->map().voxel_m(), options_.store, options_.meta);
+  if (!store) return forward_error(std::move(store));
+  store_ = std::move(*store);
+  store_->follow(mapper_->reader());
+  archive_.attach(*store_);
+  return Done{};
+}
+
+Status MappingSession::integrate(const Frame& frame) {
+  const MapUpdate update = mapper_->integrate(frame);
+  book(update);
+  if (update.verdict != FrameVerdict::kIntegrated) return Done{};
+  if (store_ == nullptr) return create_file();
+  if (!update.shift.moved) return Done{};
+  const TileStoreStats stats = store_->stats();
+  if (stats.lost == 0) return Done{};
+  if (stats.error) return tl::make_unexpected(*stats.error);
+  return fail(ErrorCode::kIo, options_.path, fmt::format("{} blocks were lost", stats.lost),
+              "write to a faster disk with room");
+}
+
+Status MappingSession::save() {
+  // No snapshot (readers hold all of them): the store writes the newest that was published.
+  if (auto closed = store_->close(mapper_->snapshot()); !closed) return closed;
+  auto file = read_back();
+  if (!file) return forward_error(std::move(file));
+  summary_.file = std::move(*file);
+  return Done{};
+}
+
+Expected<SavedFile> MappingSession::read_back() const {
+  auto map = load_map(options_.path);
+  if (!map) return forward_error(std::move(map));
+  auto counted = summarize(*map, mapper_->config().occupancy);
+  if (!counted) return forward_error(std::move(counted));
+  std::error_code unreadable;  // then the size stays 0: it is only shown
+  const auto bytes = std::filesystem::file_size(options_.path, unreadable);
+  return SavedFile{options_.path,
+                   unreadable ? 0 : bytes,
+                   map->block_count(),
+                   {counted->count(Occupancy::kFree), counted->count(Occupancy::kUnknown),
+                    counted->count(Occupancy::kOccupied)}};
+}
+
+}  // namespace swiftlet::app

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/app/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace swiftlet::app {
+namespace {
+
+double milliseconds(Nanoseconds t) { return static_cast<double>(t.count()) * 1e-6; }
+
+double rate(std::size_t frames, double elapsed_s) {
+  return elapsed_s > 0.0 ? static_cast<double>(frames) / elapsed_s : 0.0;
+}
+
+std::string latency_text(const Latency& latency) {
+  std::string text = fmt::format("  latency    p50 {:.2f} ms, p99 {:.2f} ms\n",
+                                 milliseconds(latency.frame_percentile(0.50)),
+                                 milliseconds(latency.frame_percentile(0.99)));
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    text += fmt::format("    {:<9}  p50 {:.2f} ms, p99 {:.2f} ms\n", kStageNames[i],
+                        milliseconds(latency.stage_percentile(stage, 0.50)),
+                        milliseconds(latency.stage_percentile(stage, 0.99)));
+  }
+  return text;
+}
+
+std::string dropped_text(const std::map<std::string, std::size_t>& dropped) {
+  if (dropped.empty()) return "  dropped    none\n";
+  std::size_t sum = 0;
+  std::string reasons;
+  for (const auto& [reason, count] : dropped) {
+    sum += count;
+    reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
+  }
+  return fmt::format("  dropped    {} ({})\n", sum, reasons);
+}
+
+nlohmann::ordered_json latency_json(const Latency& latency) {
+  nlohmann::ordered_json json{{"p50", milliseconds(latency.frame_percentile(0.50))},
+                              {"p99", milliseconds(latency.frame_percentile(0.99))}};
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    json["stages"][std::string(kStageNames[i])] = {
+        {"p50", milliseconds(latency.stage_percentile(stage, 0.50))},
+        {"p99", milliseconds(latency.stage_percentile(stage, 0.99))}};
+  }
+  return json;
+}
+
+}  // namespace
+
+std::map<std::string, std::size_t> MappingSummary::dropped() const {
+  std::map<std::string, std::size_t> reasons;
+  const auto add = [&](std::string_view name, std::size_t count) {
+    if (count > 0) reasons[std::string(name)] += count;
+  };
+  for (std::size_t i = 0; i < kFrameLossNames.size(); ++i) {
+    add(kFrameLossNames[i], source_tally.lost[i]);
+  }
+  for (std::size_t i = 1; i < kFrameVerdictNames.size(); ++i) {
+    add(kFrameVerdictNames[i], verdicts[i]);
+  }
+  return reasons;
+}
+
+std::string size_text(std::uintmax_t bytes) {
+  const auto value = static_cast<double>(bytes);
+  if (bytes >= 1'000'000'000) return fmt::format("{:.1f} GB", value * 1e-9);
+  if (bytes >= 1'000'000) return fmt::format("{:.1f} MB", value * 1e-6);
+  return bytes >= 1000 ? fmt::format("{:.1f} kB", value * 1e-3) : fmt::format("{} bytes", bytes);
+}
+
+std::string summary_text(const MappingSummary& s) {
+  const double mapper_s = seconds(s.latency.total());
+  std::string text = fmt::format("{}{}\n", s.source,
+                                 s.was_interrupted ? " (interrupted; saved what was mapped)" : "");
+  text += fmt::format("  frames     {} in {:.1f} s: {:.1f} fps with reading; mapper alone {:.1f}\n",
+                      s.integrated(), s.elapsed_s, rate(s.integrated(), s.elapsed_s),
+                      rate(s.integrated(), mapper_s));
+  text += dropped_text(s.dropped());
+  if (s.source_tally.poses_refused > 0) {
+    text += fmt::format("  poses      {} refused\n", s.source_tally.poses_refused);
+  }
+  text += latency_text(s.latency);
+  text += fmt::format("  window     {}; {} blocks evicted, {} restored\n",
+                      size_text(s.memory_bytes), s.blocks_evicted, s.blocks_restored);
+  if (!s.file) return text;
+  const CellCounts& cells = s.file->cells;
+  text += fmt::format("  cells      {} occupied, {} free, {} unknown in {} blocks\n",
+                      cells.occupied, cells.free, cells.unknown, s.file->blocks);
+  text += fmt::format("  map        {} ({})\n", s.file->path, size_text(s.file->bytes));
+  return text;
+}
+
+std::string summary_json(const MappingSummary& s) {
+  nlohmann::ordered_json json{
+      {"source", s.source},
+      {"frames", s.integrated()},
+      {"dropped", s.dropped()},
+      {"poses_refused", s.source_tally.poses_refused},
+      {"elapsed_s", s.elapsed_s},
+      {"fps", rate(s.integrated(), s.elapsed_s)},
+      {"mapper_fps", rate(s.integrated(), seconds(s.latency.total()))},
+      {"latency_ms", latency_json(s.latency)},
+      {"memory_bytes", s.memory_bytes},
+      {"blocks_evicted", s.blocks_evicted},
+      {"blocks_restored", s.blocks_restored},
+      {"was_interrupted", s.was_interrupted},
+  };
+  if (s.file) {
+    json["cells"] = {{"occupied", s.file->cells.occupied},
+                     {"free", s.file->cells.free},
+                     {"unknown", s.file->cells.unknown}};
+    json["map"] = {{"path", s.file->path}, {"bytes", s.file->bytes}, {"blocks", s.file->blocks}};
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace swiftlet::app

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "swiftlet/app/latency.hpp"
+#include "swiftlet/pipeline/mapper.hpp"
+#include "swiftlet/query/occupancy_query.hpp"
+#include "swiftlet/source/frame_source.hpp"
+
+namespace swiftlet::app {
+
+/// The map file that a run has written.
+struct SavedFile {
+  std::string path;
+  std::uintmax_t bytes = 0;
+  std::size_t blocks = 0;
+  CellCounts cells;
+};
+
+/// What a mapping run did.
+struct MappingSummary {
+  std::string source;
+  FrameTally source_tally;
+  std::array<std::size_t, kFrameVerdictNames.size()> verdicts{};
+  double elapsed_s = 0.0;
+  Latency latency;  ///< of the integrated frames
+  std::size_t blocks_evicted = 0;
+  std::size_t blocks_restored = 0;
+  std::size_t memory_bytes = 0;  ///< window and scratch
+  bool was_interrupted = false;
+  std::optional<SavedFile> file;  ///< absent until the map is saved
+
+  [[nodiscard]] std::size_t integrated() const { return verdicts[0]; }
+  /// Frames that did not reach the map, by reason; reasons that did not occur are left out.
+  [[nodiscard]] std::map<std::string, std::size_t> dropped() const;
+};
+
+/// For people, several lines.
+[[nodiscard]] std::string summary_text(const MappingSummary& summary);
+/// For machines, one JSON object. Times in ms, sizes in bytes.
+[[nodiscard]] std::string summary_json(const MappingSummary& summary);
+
+/// "3.2 MB"
+[[nodiscard]] std::string size_text(std::uintmax_t bytes);
+
+}  // namespace swiftlet::app

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/app/latency.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/seeds.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+TEST(Percentile, is_the_smallest_value_that_enough_others_do_not_exceed) {
+  test::for_each_seed(100, [](test::Random& random) {
+    std::vector<Nanoseconds> values(random.integer<std::size_t>(1, 60));
+    for (auto& v : values) v = Nanoseconds(random.integer(0, 50));
+    const double share = random.real(1e-6, 1.0);
+    const Nanoseconds answer = percentile(values, share);
+    const auto covered = [&](Nanoseconds limit) {
+      const auto n = std::ranges::count_if(values, [&](Nanoseconds v) { return v <= limit; });
+      return static_cast<double>(n) >= share * static_cast<double>(values.size());
+    };
+    EXPECT_TRUE(covered(answer));
+    EXPECT_FALSE(covered(answer - Nanoseconds(1)));
+    EXPECT_NE(std::ranges::find(values, answer), values.end());
+  });
+}
+
+TEST(Percentile, of_nothing_is_zero) { EXPECT_EQ(percentile({}, 0.5), Nanoseconds(0)); }
+
+TEST(Latency, adds_stages_up_to_frames) {
+  Latency latency;
+  for (int i = 1; i <= 100; ++i) {
+    latency.add({{Nanoseconds(i), Nanoseconds(0), Nanoseconds(2 * i), Nanoseconds(1)}});
+  }
+  EXPECT_EQ(latency.frame_percentile(0.50), Nanoseconds(151));
+  EXPECT_EQ(latency.frame_percentile(0.99), Nanoseconds(298));
+  EXPECT_EQ(latency.stage_percentile(Stage::kIntegrate, 0.99), Nanoseconds(198));
+  EXPECT_EQ(latency.total(), Nanoseconds(3 * 5050 + 100));
+}
+
+}  // namespace
+}  // namespace swiftlet::app

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "support/recorded.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/support/run_program.hpp"
+#include "support/temp_folder.hpp"
+#include "swiftlet/store/saved_map.hpp"
+
+namespace swiftlet::test {
+namespace {
+
+std::map<BlockIndex, VoxelBlock> blocks_of(const std::filesystem::path& path) {
+  std::map<BlockIndex, VoxelBlock> blocks;
+  const auto map = load_map(path);
+  EXPECT_TRUE(map) << map.error().text();
+  if (!map) return blocks;
+  const auto read =
+      map->for_each_block([&](const BlockIndex& i, const VoxelBlock& block) -> Status {
+        blocks.emplace(i, block);
+        return Done{};
+      });
+  EXPECT_TRUE(read);
+  return blocks;
+}
+
+using Flight = std::tuple<const char*, const char*>;  // recording, ray method
+class RecordedFlight : public ::testing::TestWithParam<Flight> {};
+
+TEST_P(RecordedFlight, loses_no_frame_and_gives_the_same_map_bits_twice) {
+  const auto& [name, rays] = GetParam();
+  const auto recording = recorded_folder(name);
+  SWIFTLET_NEEDS_RECORDING(recording);
+  const TempFolder folder;
+  for (const char* file : {"a.swl", "b.swl"}) {
+    const Ended ended = run({"map", "7scenes:" + std::filesystem::absolute(recording).string(),
+                             "-o", file, "--rays", rays, "--json"},
+                            folder.path());
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const auto summary = nlohmann::json::parse(ended.out);
+    EXPECT_EQ(summary.at("dropped"), nlohmann::json::object());
+    EXPECT_GT(summary.at("cells").at("occupied"), 100);
+    EXPECT_GT(summary.at("cells").at("free"), 100);
+  }
+  EXPECT_EQ(blocks_of(folder / "a.swl"), blocks_of(folder / "b.swl"));
+}
+
+INSTANTIATE_TEST_SUITE_P(, RecordedFlight,
+                         ::testing::Combine(::testing::Values("sevenscenes_room200",
+                                                              "realsense_f200_tabletop50"),
+                                            ::testing::Values("voxel_traversal", "line_drawing")),
+                         [](const auto& flight) {
+                           return std::string(std::get<0>(flight.param)) + "_" +
+                                  std::get<1>(flight.param);
+                         });
+
+}  // namespace
+}  // namespace swiftlet::test

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "swiftlet/pipeline/mapper.hpp"
+#include "swiftlet/query/occupancy_query.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// All that a run shows of itself: the cells, where the window lies, and what the cells mean.
+struct Outcome {
+  std::map<BlockIndex, VoxelBlock> blocks;
+  BlockWindow window{};
+  CellCounts cells;
+
+  friend bool operator==(const Outcome& a, const Outcome& b) {
+    return a.blocks == b.blocks && a.window == b.window && a.cells.free == b.cells.free &&
+           a.cells.unknown == b.cells.unknown && a.cells.occupied == b.cells.occupied;
+  }
+};
+
+/// A slanted wall from 0.25 m to 11 m: every limit of depth cuts something off.
+Frame slanted_wall(double x_m) {
+  const auto camera = PinholeIntrinsics::from_field_of_view(64, 48, 1.5);
+  Frame frame{{}, {Image<std::uint16_t>(64, 48), 0.001F}, *camera, {}};
+  for (int v = 0; v < 48; ++v) {
+    for (int u = 0; u < 64; ++u) {
+      frame.depth.raw.at(u, v) = static_cast<std::uint16_t>(250 + 168 * u + 3 * v);
+    }
+  }
+  const Eigen::Quaterniond forward = forward_looking_camera().rotation();
+  frame.T_world_camera = Transform<World, Camera>::trusted(forward, {x_m, 0.03, 0.01});
+  return frame;
+}
+
+Outcome outcome_of(const MapperConfig& config) {
+  Outcome outcome;
+  auto mapper = Mapper::create(config);
+  EXPECT_TRUE(mapper) << mapper.error().text();
+  if (!mapper) return outcome;
+  for (const double x_m : {0.0, 0.6, 1.2, 1.8}) mapper->integrate(slanted_wall(x_m));
+  outcome.window = mapper->map().window();
+  mapper->map().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
+    outcome.blocks.emplace(index, block);
+    outcome.cells.add(block, config.occupancy);
+  });
+  return outcome;
+}
+
+// A value that is allowed and different, far enough to matter.
+void change(const ConfigField&, double& value) { value *= 0.6; }
+void change(const ConfigField&, int& value) { value -= value / 4 + 1; }
+void change(const ConfigField&, Eigen::Vector3d& value) { value *= 0.6; }
+void change(const ConfigField& field, std::string& value) {
+  if (field.key == "integrate.ray_method") value = "line_drawing";
+}
+void change(const ConfigField&, std::vector<std::string>& value) { value.pop_back(); }
+
+MapperConfig base_config() {
+  MapperConfig config;
+  config.depth.downsample = 4;
+  config.depth.min_range_m = 0.4;
+  config.map.size_m = {16.0, 16.0, 6.0};  // 0.6 of it must lie in fewer blocks and still be allowed
+  return config;
+}
+
+/// The only integrator cannot be exchanged for another: nothing to assert yet.
+bool has_no_other_value(const ConfigField& field) {
+  return field.key == "integrate.integrator" && integrators().size() == 1;
+}
+
+TEST(MapperConfig, every_parameter_changes_some_output) {
+  const Outcome before = outcome_of(base_config());
+  ASSERT_GT(before.cells.occupied, 0U);
+  ASSERT_GT(before.cells.free, 0U);
+  std::vector<std::string> keys;
+  const MapperConfig defaults;
+  visit_config(defaults, [&](const ConfigField& field, const auto&) {
+    if (!has_no_other_value(field)) keys.emplace_back(field.key);
+  });
+  for (const std::string& key : keys) {
+    MapperConfig config = base_config();
+    visit_config(config, [&](const ConfigField& field, auto& value) {
+      if (field.key == key) change(field, value);
+    });
+    ASSERT_TRUE(config.faults().empty()) << key << ": " << config.faults().front().text();
+    EXPECT_FALSE(outcome_of(config) == before) << key << " changes nothing";
+  }
+}
+
+TEST(MapperConfig, an_integrator_is_chosen_by_its_name) {
+  MapperConfig config;
+  config.integrate.integrator = "magic";
+  ASSERT_EQ(config.faults().size(), 1U);
+  EXPECT_EQ(config.faults().front().where, "integrate.integrator");
+}
+
+}  // namespace
+}  // namespace swiftlet
