@@ -11,6 +11,7 @@
   X(info, "tell what a map file holds and where it comes from") \
   X(render, "draw a map as a PNG picture")                      \
   X(export, "write a map in another program's format")          \
+  X(compare, "count the cells in which two maps differ")        \
   X(check, "look for faults in map files and config files")     \
   X(list, "list every source, method, format, view, parameter")
 
