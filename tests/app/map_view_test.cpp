@@ -51,7 +51,7 @@ TEST_P(EveryView, shows_a_change_of_the_map) {
 
 TEST_P(EveryView, draws_the_same_map_the_same_way_whatever_the_order_of_its_blocks) {
   const LoadedMap map = pillar();
-  LoadedMap reordered{map.voxel_m, map.thresholds, {}};
+  LoadedMap reordered{map.voxel_m, map.thresholds};
   reordered.blocks.rehash(1024);
   std::vector<BlockIndex> order;
   for (const auto& [index, block] : map.blocks) order.push_back(index);
@@ -83,6 +83,17 @@ TEST(SliceView, has_as_many_pixels_of_each_colour_as_the_layer_has_cells) {
   const std::size_t free = pixels_of(*picture, {255, 226, 89});
   EXPECT_LE(free, 95 * cell);
   EXPECT_GT(free, 94 * cell) << "the origin's cross covers part of four cells";
+}
+
+TEST(SliceView, shows_the_layer_where_the_flight_began_unless_told_otherwise) {
+  LoadedMap map = pillar();
+  map.start_m = {0.1, 0.1, 0.7};  // layer 3
+  const auto asked = draw_view("slice", map, {0.7, 8});
+  const auto unasked = draw_view("slice", map, {std::nullopt, 8});
+  const auto floor = draw_view("slice", map, {0.1, 8});
+  ASSERT_TRUE(asked && unasked && floor);
+  EXPECT_TRUE(std::ranges::equal(asked->pixels(), unasked->pixels()));
+  EXPECT_FALSE(std::ranges::equal(floor->pixels(), unasked->pixels()));
 }
 
 TEST(SliceView, x_forward_is_up_and_y_left_is_left) {

@@ -223,6 +223,7 @@ TEST_F(Program, the_map_carries_the_config_it_was_made_with) {
   EXPECT_EQ(info.at("voxel_m"), 0.1);
   EXPECT_EQ(info.at("frames"), 3);
   EXPECT_EQ(info.at("meta").at("source"), "7scenes:rec");
+  EXPECT_EQ(info.at("meta").at("start_m"), "0 0 0") << "the first pose is the identity";
   // Maps the same again from nothing but what the file tells.
   write_file(folder_ / "echo.yaml", info.at("meta").at("config").get<std::string>());
   ASSERT_EQ(map_to("b.swl", {"--config", "echo.yaml"}).exit_code, 0);

@@ -28,6 +28,17 @@ TEST(TileStoreCreation, refuses_to_overwrite_unless_told_and_then_starts_empty) 
   EXPECT_TRUE(test::blocks_in(folder / "a.swl").empty());
 }
 
+TEST(TileStoreCreation, a_map_has_its_description_as_soon_as_it_has_its_name) {
+  Folder folder;  // so a writer that is killed before its first batch leaves a valid map
+  const MapMeta meta{{"voxel_m", "0.1"}, {"frames", "0"}, {"source", "somewhere"}};
+  ASSERT_TRUE(MapFile::create(folder / "a.swl", false, meta));
+  EXPECT_TRUE(check_map(folder / "a.swl").empty());
+  const auto map = load_map(folder / "a.swl");
+  ASSERT_TRUE(map.has_value()) << map.error().text();
+  EXPECT_EQ(map->meta(), meta);
+  EXPECT_EQ(map->block_count(), 0U);
+}
+
 TEST(TileStoreCreation, says_where_it_cannot_write) {
   for (const char* place : {"/proc/a.swl", "/nowhere/at/all/a.swl"}) {
     const auto store = TileStore::create(place, 0.1);

@@ -126,6 +126,7 @@ Faults list(const ListOptions& options) {
 Action declare_list(CLI::App& parser) {
   auto options = std::make_shared<ListOptions>();
   std::vector<std::string> names;
+  names.reserve(kKinds.size());
   for (const Kind& kind : kKinds) names.emplace_back(kind.name);
   parser.add_option("KIND", options->kind, "only this kind of thing")
       ->check(CLI::IsMember(names))

@@ -60,7 +60,8 @@ SessionOptions session_options(const MapOptions& options, const SourceInfo& info
   session.meta = {{"config", config_to_yaml(config)},
                   {"source", info.uri},
                   {"native_up_axis", info.native_up_axis},
-                  {"writer", "swiftlet " SWIFTLET_VERSION},
+                  {"program_version", SWIFTLET_VERSION},
+                  {"logodds_per_step", fmt::format("{}", config.integrate.logodds_per_step)},
                   {"created", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}};
   return session;
 }
@@ -75,8 +76,11 @@ Status fly(FrameSource& source, MappingSession& session, const MapOptions& optio
     summary.was_interrupted = interrupt.is_interrupted();
     if (summary.was_interrupted) break;
     auto frame = source.next();
-    if (!frame) outcome = forward_error(std::move(frame));
-    if (!outcome || !*frame) break;
+    if (!frame) {
+      outcome = forward_error(std::move(frame));
+      break;
+    }
+    if (!*frame) break;
     outcome = session.integrate(**frame);
     if (!outcome) break;
     progress.update(++done);

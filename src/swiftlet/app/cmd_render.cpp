@@ -47,8 +47,7 @@ Action declare_render(CLI::App& parser) {
       ->capture_default_str();
   parser
       .add_option("--z", o->how.z_m,
-                  "metres above the start: height of a slice (default 0); other views leave out "
-                  "what lies above")
+                  "slice: its height (default: the start's); else: cut away what lies above")
       ->type_name("METRES");
   CLI::Range scales(1, 256);
   scales.description("");

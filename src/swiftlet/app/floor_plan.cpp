@@ -14,13 +14,14 @@ constexpr int kTick_px = 6;
 constexpr int kLongTick_px = 12;
 constexpr Colour kPaper{255, 255, 255};
 constexpr Colour kInk{70, 70, 70};
-constexpr Colour kOriginInk{214, 39, 40};
+constexpr Colour kStartInk{214, 39, 40};
 
 }  // namespace
 
-FloorPlan::FloorPlan(const VoxelBox& box, double voxel_m, int cell_px)
+FloorPlan::FloorPlan(const LoadedMap& map, const VoxelBox& box, int cell_px)
     : box_(box),
-      voxel_m_(voxel_m),
+      voxel_m_(map.voxel_m),
+      start_m_(map.start_m),
       cell_px_(cell_px),
       picture_((box.last.y - box.first.y + 1) * cell_px + 2 * kMargin_px,
                (box.last.x - box.first.x + 1) * cell_px + 2 * kMargin_px, kPaper) {}
@@ -68,17 +69,17 @@ void FloorPlan::draw_scale_bar() {
                  bottom - 1, kPaper);
 }
 
-void FloorPlan::draw_origin() {
-  const int u = column_px(0.0);
-  const int v = row_px(0.0);
-  fill_rectangle(picture_, u - 6, v - 1, u + 7, v + 2, kOriginInk);
-  fill_rectangle(picture_, u - 1, v - 6, u + 2, v + 7, kOriginInk);
+void FloorPlan::draw_start() {
+  const int u = column_px(start_m_.y());
+  const int v = row_px(start_m_.x());
+  fill_rectangle(picture_, u - 6, v - 1, u + 7, v + 2, kStartInk);
+  fill_rectangle(picture_, u - 1, v - 6, u + 2, v + 7, kStartInk);
 }
 
 Picture FloorPlan::finish() && {
   draw_ticks();
   draw_scale_bar();
-  draw_origin();
+  draw_start();
   return std::move(picture_);
 }
 

@@ -9,15 +9,15 @@ namespace swiftlet::app {
 
 /// A picture of the world from above, one square per column of cells: x forward is up, y left is
 /// left. Around it a margin with a tick every metre (longer every five) and a bar of one metre in
-/// the lower left corner; a cross marks the world origin, where the flight began.
+/// the lower left corner; a cross marks where the flight began.
 class FloorPlan {
  public:
-  FloorPlan(const VoxelBox& box, double voxel_m, int cell_px);
+  FloorPlan(const LoadedMap& map, const VoxelBox& box, int cell_px);
 
   /// Colours the square of column (x, y). REQUIRES: the column lies in the box.
   void fill_column(std::int32_t x, std::int32_t y, Colour colour);
 
-  /// Draws ticks, scale bar and origin over the cells and hands the picture out.
+  /// Draws ticks, scale bar and start over the cells and hands the picture out.
   [[nodiscard]] Picture finish() &&;
 
  private:
@@ -25,10 +25,11 @@ class FloorPlan {
   [[nodiscard]] int row_px(double x_m) const;     // pixel row of a world x
   void draw_ticks();
   void draw_scale_bar();
-  void draw_origin();
+  void draw_start();
 
   VoxelBox box_;
   double voxel_m_;
+  Eigen::Vector3d start_m_;
   int cell_px_;
   Picture picture_;
 };

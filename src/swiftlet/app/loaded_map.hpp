@@ -17,7 +17,8 @@ namespace swiftlet::app {
 struct LoadedMap {
   double voxel_m = 0.2;
   OccupancyThresholds thresholds;
-  std::unordered_map<BlockIndex, VoxelBlock, BlockHash> blocks;
+  std::unordered_map<BlockIndex, VoxelBlock, BlockHash> blocks{};
+  Eigen::Vector3d start_m = Eigen::Vector3d::Zero();  ///< camera at the first frame [world]
 
   [[nodiscard]] LogOdds log_odds(const VoxelIndex& voxel) const {
     const auto found = blocks.find(block_of(voxel));

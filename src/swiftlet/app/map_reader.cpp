@@ -3,6 +3,8 @@
 
 #include "swiftlet/app/map_reader.hpp"
 
+#include <sstream>
+
 #include "swiftlet/app/config_file.hpp"
 
 namespace swiftlet::app {
@@ -22,7 +24,12 @@ Expected<LoadedMap> read_whole_map(const std::string& path) {
   if (!saved) return forward_error(std::move(saved));
   auto thresholds = thresholds_of(*saved);
   if (!thresholds) return forward_error(std::move(thresholds));
-  LoadedMap map{saved->voxel_m(), *thresholds, {}};
+  LoadedMap map{saved->voxel_m(), *thresholds};
+  const auto start = saved->meta().find("start_m");  // older maps and other writers have none
+  if (start != saved->meta().end()) {
+    std::istringstream numbers(start->second);
+    numbers >> map.start_m.x() >> map.start_m.y() >> map.start_m.z();
+  }
   auto read =
       saved->for_each_block([&](const BlockIndex& index, const VoxelBlock& block) -> Status {
         map.blocks.emplace(index, block);

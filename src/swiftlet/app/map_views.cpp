@@ -48,10 +48,10 @@ int fitting_cell_px(const VoxelBox& box) {
 
 }  // namespace
 
-Expected<Picture> draw_view(std::string_view name, const LoadedMap& map,
+Expected<Picture> draw_view(std::string_view view, const LoadedMap& map,
                             const ViewOptions& options) {
-  auto view = find_registered(map_views(), name, "view");
-  if (!view) return forward_error(std::move(view));
+  auto known = find_registered(map_views(), view, "view");
+  if (!known) return forward_error(std::move(known));
   const auto box = known_box(map);
   if (!box) {
     return fail(ErrorCode::kNotFound, {}, "the map holds no free or occupied cell to draw",
@@ -66,7 +66,7 @@ Expected<Picture> draw_view(std::string_view name, const LoadedMap& map,
                 fmt::format("the picture could have {:.0f} megapixels", megapixels),
                 "choose fewer pixels per cell");
   }
-  return view->make(map, *box, fitted);
+  return known->make(map, *box, fitted);
 }
 
 }  // namespace swiftlet::app

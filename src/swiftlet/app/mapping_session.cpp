@@ -29,7 +29,8 @@ void MappingSession::book(const MapUpdate& update) {
   summary_.memory_bytes = mapper_->memory_bytes();
 }
 
-Status MappingSession::create_file() {
+Status MappingSession::create_file(const Eigen::Vector3d& start_m) {
+  options_.meta["start_m"] = fmt::format("{} {} {}", start_m.x(), start_m.y(), start_m.z());
   auto store =
       TileStore::create(options_.path, mapper_->map().voxel_m(), options_.store, options_.meta);
   if (!store) return forward_error(std::move(store));
@@ -43,7 +44,7 @@ Status MappingSession::integrate(const Frame& frame) {
   const MapUpdate update = mapper_->integrate(frame);
   book(update);
   if (update.verdict != FrameVerdict::kIntegrated) return Done{};
-  if (store_ == nullptr) return create_file();
+  if (store_ == nullptr) return create_file(frame.T_world_camera.translation());
   if (!update.shift.moved) return Done{};
   const TileStoreStats stats = store_->stats();
   if (stats.lost == 0) return Done{};

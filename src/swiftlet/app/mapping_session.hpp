@@ -61,7 +61,7 @@ class MappingSession {
   };
 
   explicit MappingSession(const SessionOptions& options) : options_(options) {}
-  [[nodiscard]] Status create_file();
+  [[nodiscard]] Status create_file(const Eigen::Vector3d& start_m);
   [[nodiscard]] Expected<SavedFile> read_back() const;
   void book(const MapUpdate& update);
 

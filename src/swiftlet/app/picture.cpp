@@ -17,7 +17,9 @@ constexpr std::array kViridis{Colour{68, 1, 84},    Colour{71, 44, 122},  Colour
                               Colour{44, 113, 142}, Colour{33, 144, 141}, Colour{39, 173, 129},
                               Colour{92, 200, 99},  Colour{170, 220, 50}, Colour{253, 231, 37}};
 
-std::uint8_t byte(double v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0, 255.0) + 0.5); }
+std::uint8_t byte(double v) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0, 255.0)));
+}
 
 /// The part [begin, end] of a pixel row that lies inside a convex polygon; empty if begin > end.
 struct Chord {

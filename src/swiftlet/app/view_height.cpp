@@ -6,14 +6,18 @@
 #include "swiftlet/app/floor_plan.hpp"
 
 namespace swiftlet::app {
+namespace {
+
+constexpr Colour kUnseen{205, 208, 212};
+constexpr Colour kFree{250, 248, 240};
+
+}  // namespace
 
 Picture draw_height(const LoadedMap& map, const VoxelBox& whole, const ViewOptions& options) {
-  constexpr Colour kUnseen{205, 208, 212};
-  constexpr Colour kFree{250, 248, 240};
   const VoxelBox box = cut_box(whole, map.voxel_m, options);
   const std::int32_t low = lowest_matter(map, box).value_or(box.first.z);
   const int span = std::max(1, box.last.z - low);
-  FloorPlan plan(box, map.voxel_m, options.cell_px);
+  FloorPlan plan(map, box, options.cell_px);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
     const Column column = column_at(map, box, x, y);
     const double height = static_cast<double>(column.highest - low) / span;

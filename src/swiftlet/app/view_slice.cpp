@@ -6,15 +6,20 @@
 #include "swiftlet/app/floor_plan.hpp"
 
 namespace swiftlet::app {
+namespace {
 
-/// The thesis's 2-D map (method 10): the camera-height layer unless told otherwise; the camera
-/// starts at height 0.
+constexpr Colour kFree{255, 226, 89};
+constexpr Colour kOccupied{31, 73, 160};
+constexpr Colour kUnknown{255, 255, 255};
+
+}  // namespace
+
+/// The thesis's 2-D map (method 10): the camera-height layer where the flight began,
+/// unless told otherwise.
 Picture draw_slice(const LoadedMap& map, const VoxelBox& box, const ViewOptions& options) {
-  constexpr Colour kFree{255, 226, 89};
-  constexpr Colour kOccupied{31, 73, 160};
-  constexpr Colour kUnknown{255, 255, 255};
-  const auto z = static_cast<std::int32_t>(std::floor(options.z_m.value_or(0.0) / map.voxel_m));
-  FloorPlan plan(box, map.voxel_m, options.cell_px);
+  const auto z =
+      static_cast<std::int32_t>(std::floor(options.z_m.value_or(map.start_m.z()) / map.voxel_m));
+  FloorPlan plan(map, box, options.cell_px);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
     const Occupancy cell = map.state({x, y, z});
     const Colour known = cell == Occupancy::kOccupied ? kOccupied : kFree;

@@ -17,7 +17,7 @@ constexpr double kFullHeight_m = 1.5;  // a column with this much matter is draw
 /// Walls stand out dark against tables and chairs, since they fill more cells of their columns.
 Picture draw_top(const LoadedMap& map, const VoxelBox& whole, const ViewOptions& options) {
   const VoxelBox box = cut_box(whole, map.voxel_m, options);
-  FloorPlan plan(box, map.voxel_m, options.cell_px);
+  FloorPlan plan(map, box, options.cell_px);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
     const Column column = column_at(map, box, x, y);
     Colour colour = column.free > 0 ? kFree : kUnseen;

@@ -46,9 +46,10 @@ std::vector<Error> MapperConfig::faults() const {
         {ErrorCode::kInvalidConfig, "depth.min_range_m", "is not below depth.max_range_m", {}});
   }
   keep_fault(faults, "depth.steps", Conditioner::create(depth));
-  auto ray_method = find_ray_method(integrate.ray_method);
-  if (ray_method) keep_fault(faults, "integrate.integrator", make_integrator(integrate));
-  keep_fault(faults, "integrate.ray_method", std::move(ray_method));
+  keep_fault(faults, "integrate.integrator",
+             find_registered(integrators(), integrate.integrator, "integrator"));
+  keep_fault(faults, "integrate.ray_method", find_ray_method(integrate.ray_method));
+  if (faults.empty()) keep_fault(faults, "integrate", make_integrator(integrate));
   if (faults.empty()) keep_fault(faults, "map", RollingMap::create(map));
   return faults;
 }

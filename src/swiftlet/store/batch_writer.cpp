@@ -20,7 +20,14 @@ Expected<BatchWriter> BatchWriter::open(const std::filesystem::path& path, Store
                                         std::uint64_t max_bytes) {
   auto file = MapFile::open_to_write(path, max_bytes);
   if (!file) return forward_error(std::move(file));
-  return BatchWriter(std::move(*file), policy, max_bytes);
+  auto meta = file->meta();
+  if (!meta) return forward_error(std::move(meta));
+  auto seal = file->seal();
+  if (!seal) return forward_error(std::move(seal));
+  BatchWriter writer(std::move(*file), policy, max_bytes);
+  writer.meta_ = std::move(*meta);
+  writer.seal_ = *seal;
+  return writer;
 }
 
 bool BatchWriter::holds(const BlockIndex& index) const {

@@ -53,7 +53,7 @@ class BatchWriter {
     std::uint64_t dropped_by_cap = 0;
   };
 
-  /// Opens an empty map, see MapFile::create(). `max_bytes`: see make_room(); 0 = no cap.
+  /// Opens a map of no blocks, see MapFile::create(). `max_bytes`: see make_room(); 0 = no cap.
   [[nodiscard]] static Expected<BatchWriter> open(const std::filesystem::path& path,
                                                   StorePolicy policy, std::uint64_t max_bytes);
 

@@ -57,9 +57,12 @@ class MapFile {
   static constexpr std::int64_t kSchemaVersion = 1;           ///< readers refuse newer ones by name
   static constexpr std::int64_t kPageBytes = 4096;
 
-  /// Makes an empty map, complete on disk before it takes the name `path`.
+  /// Makes a map of no blocks, complete with its description before it takes the name `path`.
   /// Errors: kUsage if `path` exists and `overwrite` is not set; kIo.
-  [[nodiscard]] static Status create(const std::filesystem::path& path, bool overwrite);
+  [[nodiscard]] static Status create(const std::filesystem::path& path, bool overwrite,
+                                     const MapMeta& meta = {});
+  /// Removes a map that nobody has open, and its logs.
+  static void remove(const std::filesystem::path& path);
   /// Errors: kNotFound, kCorruptInput if it is no Swiftlet map or damaged, kUnsupported if it is of
   /// a newer version, kIo.
   [[nodiscard]] static Expected<MapFile> open_to_read(const std::filesystem::path& path);

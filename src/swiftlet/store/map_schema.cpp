@@ -33,14 +33,31 @@ void remove_quietly(const fs::path& path) {
   fs::remove(path, ignored);
 }
 
-Status write_schema(const fs::path& path) {
+/// The rows of `meta`, and the seal over them.
+Status write_description(const Database& database, const MapMeta& meta) {
+  auto line = database.prepare("INSERT INTO meta VALUES(?1, ?2)");
+  if (!line) return forward_error(std::move(line));
+  std::uint64_t digest = 0;
+  for (const auto& [key, value] : meta) {
+    if (auto written = line->bind(1, key).bind(2, value).run(); !written) return written;
+    digest += meta_checksum(key, value);
+  }
+  auto seal = database.prepare("INSERT INTO seal VALUES(0, 0, 0, ?1)");
+  if (!seal) return forward_error(std::move(seal));
+  return seal->bind(1, static_cast<std::int64_t>(digest)).run();
+}
+
+Status write_empty_map(const fs::path& path, const MapMeta& meta) {
   auto database = Database::open(path, Database::Mode::kCreate);
   if (!database) return forward_error(std::move(database));
-  return database->run(
+  auto made = database->run(
       fmt::format("PRAGMA page_size = {}; PRAGMA application_id = {}; PRAGMA user_version = {}; "
-                  "BEGIN; {}; {}; {}; INSERT INTO seal VALUES(0, 0, 0, 0); COMMIT",
+                  "BEGIN; {}; {}; {}",
                   MapFile::kPageBytes, MapFile::kApplicationId, MapFile::kSchemaVersion,
                   kBlocksTable, kMetaTable, kSealTable));
+  if (!made) return made;
+  if (auto written = write_description(*database, meta); !written) return written;
+  return database->run("COMMIT");
 }
 
 Status check_table(const Database& database, const char* name, const char* expected,
@@ -54,7 +71,7 @@ Status check_table(const Database& database, const char* name, const char* expec
 
 }  // namespace
 
-Status MapFile::create(const fs::path& path, bool overwrite) {
+Status MapFile::create(const fs::path& path, bool overwrite, const MapMeta& meta) {
   std::error_code error;
   const auto kind = fs::status(path, error).type();
   if (fs::exists(path, error) && (!overwrite || kind != fs::file_type::regular)) {
@@ -64,7 +81,7 @@ Status MapFile::create(const fs::path& path, bool overwrite) {
   }
   const fs::path fresh = beside(path, ".new");
   remove_quietly(fresh);
-  if (auto written = write_schema(fresh); !written) {
+  if (auto written = write_empty_map(fresh, meta); !written) {
     remove_quietly(fresh);
     remove_quietly(beside(fresh, "-journal"));
     return written;
@@ -77,6 +94,10 @@ Status MapFile::create(const fs::path& path, bool overwrite) {
     return fail(ErrorCode::kIo, path.string(), "the map cannot be put there: " + error.message());
   }
   return Done{};
+}
+
+void MapFile::remove(const fs::path& path) {
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"}) remove_quietly(beside(path, suffix));
 }
 
 Status MapFile::check_identity() const {

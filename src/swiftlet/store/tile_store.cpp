@@ -36,13 +36,23 @@ Expected<std::unique_ptr<TileStore>> TileStore::create(const std::filesystem::pa
                                                        const TileStoreOptions& options,
                                                        MapMeta meta) {
   if (auto valid = validate(options); !valid) return forward_error(std::move(valid));
-  if (auto made = MapFile::create(path, options.overwrite); !made) {
+  // With its description from the start: a map whose writer is killed before a frame is valid.
+  meta["voxel_m"] = fmt::format("{}", voxel_m);
+  meta["frames"] = "0";
+  if (auto made = MapFile::create(path, options.overwrite, meta); !made) {
     return forward_error(std::move(made));
   }
+  auto store = open(path, options, std::move(meta));
+  if (!store) MapFile::remove(path);
+  return store;
+}
+
+Expected<std::unique_ptr<TileStore>> TileStore::open(const std::filesystem::path& path,
+                                                     const TileStoreOptions& options,
+                                                     MapMeta meta) {
   auto writer = BatchWriter::open(path, options.policy, options.max_bytes);
   if (!writer) return forward_error(std::move(writer));
-  // The first batch is the description alone: a map killed before its first frame is valid.
-  meta["voxel_m"] = fmt::format("{}", voxel_m);
+  // Proves, before the flight, that the disk takes what is written.
   if (auto written = writer->write({nullptr, nullptr, &meta}); !written) {
     return forward_error(std::move(written));
   }

@@ -84,6 +84,10 @@ class TileStore final : public BlockArchive {
   Status close(std::optional<MapSnapshot> last = std::nullopt);
 
  private:
+  /// Opens the map of no blocks that create() has made.
+  [[nodiscard]] static Expected<std::unique_ptr<TileStore>> open(const std::filesystem::path& path,
+                                                                 const TileStoreOptions& options,
+                                                                 MapMeta meta);
   TileStore(const TileStoreOptions& options, BatchWriter writer, MapFile reading, MapMeta meta);
   void run();
   void write_batch();

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -29,18 +30,29 @@ std::map<BlockIndex, VoxelBlock> blocks_of(const std::filesystem::path& path) {
   return blocks;
 }
 
-using Flight = std::tuple<const char*, const char*>;  // recording, ray method
+struct Recording {
+  const char* name;
+  const char* voxel;  ///< small enough that a table's things are more than one cell
+  const char* downsample;
+  friend std::ostream& operator<<(std::ostream& out, const Recording& r) { return out << r.name; }
+};
+constexpr std::array kRecordings{
+    Recording{"sevenscenes_room200", "map.voxel_m=0.1", "depth.downsample=8"},
+    Recording{"realsense_f200_tabletop50", "map.voxel_m=0.05", "depth.downsample=4"}};
+
+using Flight = std::tuple<Recording, const char*>;  // and the ray method
 class RecordedFlight : public ::testing::TestWithParam<Flight> {};
 
 TEST_P(RecordedFlight, loses_no_frame_and_gives_the_same_map_bits_twice) {
-  const auto& [name, rays] = GetParam();
-  const auto recording = recorded_folder(name);
+  const auto& [flown, rays] = GetParam();
+  const auto recording = recorded_folder(flown.name);
   SWIFTLET_NEEDS_RECORDING(recording);
   const TempFolder folder;
   for (const char* file : {"a.swl", "b.swl"}) {
-    const Ended ended = run({"map", "7scenes:" + std::filesystem::absolute(recording).string(),
-                             "-o", file, "--rays", rays, "--json"},
-                            folder.path());
+    const Ended ended =
+        run({"map", "7scenes:" + std::filesystem::absolute(recording).string(), "-o", file,
+             "--rays", rays, "--json", "--set", flown.voxel, "--set", flown.downsample},
+            folder.path());
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const auto summary = nlohmann::json::parse(ended.out);
     EXPECT_EQ(summary.at("dropped"), nlohmann::json::object());
@@ -51,11 +63,10 @@ TEST_P(RecordedFlight, loses_no_frame_and_gives_the_same_map_bits_twice) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, RecordedFlight,
-                         ::testing::Combine(::testing::Values("sevenscenes_room200",
-                                                              "realsense_f200_tabletop50"),
+                         ::testing::Combine(::testing::ValuesIn(kRecordings),
                                             ::testing::Values("voxel_traversal", "line_drawing")),
                          [](const auto& flight) {
-                           return std::string(std::get<0>(flight.param)) + "_" +
+                           return std::string(std::get<0>(flight.param).name) + "_" +
                                   std::get<1>(flight.param);
                          });
 
