@@ -14,6 +14,12 @@ namespace {
 
 const double kSqrtTwoPi = std::sqrt(2.0 * std::numbers::pi);
 
+/// Midpoint rule over +-6 sigma of a reading's scatter; the integrand jumps at 0, a cell boundary
+/// here.
+constexpr int kScatterCells = 600;
+constexpr double kScatterLimit = 6.0;
+constexpr double kScatterStep = 2.0 * kScatterLimit / kScatterCells;
+
 double logit(double p) { return std::log(p / (1.0 - p)); }
 
 }  // namespace
@@ -36,16 +42,11 @@ double InverseSensorModel::log_odds(double d_m, double sigma_m) const {
 }
 
 double InverseSensorModel::expected_at_surface(double sigma_m) const {
-  // Midpoint rule over +-6 sigma of the reading's scatter; the integrand jumps at 0, which is a
-  // cell boundary here.
-  constexpr int kCells = 600;
-  constexpr double kHalfWidth = 6.0;
-  constexpr double kStep = 2.0 * kHalfWidth / kCells;
   double sum = 0.0;
-  for (int i = 0; i < kCells; ++i) {
-    const double scatter = -kHalfWidth + (i + 0.5) * kStep;
+  for (int i = 0; i < kScatterCells; ++i) {
+    const double scatter = -kScatterLimit + (i + 0.5) * kScatterStep;
     const double density = std::exp(-0.5 * scatter * scatter) / kSqrtTwoPi;
-    sum += density * kStep * log_odds(-scatter * sigma_m, sigma_m);
+    sum += density * kScatterStep * log_odds(-scatter * sigma_m, sigma_m);
   }
   return sum;
 }

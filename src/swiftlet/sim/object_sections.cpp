@@ -81,6 +81,7 @@ std::uint16_t read_material(YamlSection& entry, const std::vector<Material>& mat
   const auto found = std::ranges::find(materials, name, &Material::name);
   if (found != materials.end()) return to<std::uint16_t>(found - materials.begin());
   std::vector<std::string> names;
+  names.reserve(materials.size());
   for (const auto& material : materials) names.push_back(material.name);
   entry.problem(fmt::format("unknown material '{}'", name),
                 fmt::format("known are: {}", fmt::join(names, ", ")));

@@ -118,7 +118,7 @@ class PlyFile {
     return Done{};  // comments, obj_info
   }
 
-  Status property_line(std::istringstream& words, const std::string& line, Header& header) {
+  Status property_line(std::istringstream& words, const std::string& line, Header& header) const {
     Property property;
     std::string type;
     words >> type;

@@ -109,7 +109,7 @@ struct RayCaster::Embree {
       return fail(ErrorCode::kOutOfMemory, "ray caster",
                   fmt::format("no memory for {} triangles", mesh.triangles.size()));
     }
-    std::memcpy(vertices, mesh.vertices_m.data(), mesh.vertices_m.size() * 3 * sizeof(float));
+    std::ranges::copy(mesh.vertices_m, static_cast<Eigen::Vector3f*>(vertices));
     std::memcpy(triangles, mesh.triangles.data(),
                 mesh.triangles.size() * 3 * sizeof(std::uint32_t));
     rtcSetGeometryBuildQuality(geometry, moves ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH);

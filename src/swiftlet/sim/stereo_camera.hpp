@@ -49,10 +49,10 @@ class StereoCamera {
   };
   struct View;  // the pose, unpacked for the inner loops
 
-  void see_row(const RayCaster& world, const View& view, int v, RowBuffers& buffers);
+  void see_row(const RayCaster& world, const View& view, int v, RowBuffers& row);
   void report_row(std::uint64_t frame_number, int v, DepthImage& depth) const;
   [[nodiscard]] bool is_matched(const Hit& hit, std::uint64_t frame_number, int u, int v) const;
-  [[nodiscard]] float mixed_disparity(int u, int v, float chance, float share) const;
+  [[nodiscard]] float mixed_disparity(int u, int v, float draw, float share) const;
   [[nodiscard]] std::uint16_t reading_mm(float disparity_px) const;
 
   StereoOptions options_;

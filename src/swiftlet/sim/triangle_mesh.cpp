@@ -20,7 +20,7 @@ class Appender {
         material_(material),
         first_(static_cast<std::uint32_t>(mesh.vertices_m.size())) {}
 
-  void vertex(const Eigen::Vector3d& p_m) { mesh_.vertices_m.push_back(p_m.cast<float>()); }
+  void vertex(const Eigen::Vector3d& p_m) { mesh_.vertices_m.emplace_back(p_m.cast<float>()); }
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     mesh_.triangles.push_back({first_ + a, first_ + b, first_ + c});
     mesh_.materials.push_back(material_);

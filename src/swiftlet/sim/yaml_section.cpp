@@ -28,8 +28,8 @@ void YamlProblem::add(const YAML::Mark& mark, std::string what, std::string reme
   first = Error{ErrorCode::kInvalidConfig, where, std::move(what), std::move(remedy)};
 }
 
-YamlSection::YamlSection(YAML::Node node, std::string title, YamlProblem& problem)
-    : node_(std::move(node)), title_(std::move(title)), problem_(&problem) {
+YamlSection::YamlSection(const YAML::Node& node, std::string title, YamlProblem& problem)
+    : node_(node), title_(std::move(title)), problem_(&problem) {
   if (!node_.IsMap()) this->problem(fmt::format("{} must be a mapping of keys to values", title_));
 }
 
@@ -77,7 +77,8 @@ double YamlSection::number(std::string_view key, const Limits& limits,
   return scalar(node, key, limits);
 }
 
-Eigen::Vector3d YamlSection::vector(std::string_view key, std::optional<Eigen::Vector3d> fallback) {
+Eigen::Vector3d YamlSection::vector(std::string_view key,
+                                    const std::optional<Eigen::Vector3d>& fallback) {
   const YAML::Node node = require(key, fallback.has_value());
   if (node.Type() == YAML::NodeType::Undefined) return fallback.value_or(Eigen::Vector3d::Zero());
   if (!node.IsSequence() || node.size() != 3) {
@@ -89,7 +90,7 @@ Eigen::Vector3d YamlSection::vector(std::string_view key, std::optional<Eigen::V
           scalar(node[2], key, kAnyNumber)};
 }
 
-std::string YamlSection::text(std::string_view key, std::optional<std::string> fallback) {
+std::string YamlSection::text(std::string_view key, const std::optional<std::string>& fallback) {
   const YAML::Node node = require(key, fallback.has_value());
   if (node.Type() == YAML::NodeType::Undefined) return fallback.value_or("");
   if (node.IsScalar()) return node.Scalar();

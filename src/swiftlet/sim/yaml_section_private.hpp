@@ -41,15 +41,15 @@ struct YamlProblem {
 /// its end. REQUIRES: the problem outlives the section; finish() is called when all keys were read.
 class YamlSection {
  public:
-  YamlSection(YAML::Node node, std::string title, YamlProblem& problem);
+  YamlSection(const YAML::Node& node, std::string title, YamlProblem& problem);
 
   [[nodiscard]] bool has(std::string_view key);
   [[nodiscard]] double number(std::string_view key, const Limits& limits = kAnyNumber,
                               std::optional<double> fallback = std::nullopt);
-  [[nodiscard]] Eigen::Vector3d vector(std::string_view key,
-                                       std::optional<Eigen::Vector3d> fallback = std::nullopt);
+  [[nodiscard]] Eigen::Vector3d vector(
+      std::string_view key, const std::optional<Eigen::Vector3d>& fallback = std::nullopt);
   [[nodiscard]] std::string text(std::string_view key,
-                                 std::optional<std::string> fallback = std::nullopt);
+                                 const std::optional<std::string>& fallback = std::nullopt);
   [[nodiscard]] std::optional<YamlSection> section(std::string_view key);
   /// A list of mappings; empty if the key is absent.
   [[nodiscard]] std::vector<YamlSection> list(std::string_view key);

@@ -29,8 +29,9 @@ constexpr std::size_t kDeflateMax = 1032;  // no byte of a deflate stream yields
 /// and read_pixels() are the only places it lands, and between them and libpng nothing has any.
 class PngDecoder {
  public:
-  explicit PngDecoder(std::string_view file) : rest_(file) {
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
+  explicit PngDecoder(std::string_view file)
+      : rest_(file),
+        png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning)) {
     if (png_ == nullptr) return;
     info_ = png_create_info_struct(png_);
     png_set_read_fn(png_, this, on_read);

@@ -16,7 +16,7 @@ Expected<Eigen::Matrix<double, N, N>> read_square_matrix(const std::filesystem::
   if (!text) return forward_error(std::move(text));
 
   const auto words = words_of(*text);
-  if (words.size() != std::size_t{N * N}) {
+  if (words.size() != std::size_t{N} * std::size_t{N}) {
     return fail(ErrorCode::kCorruptInput, path.string(),
                 fmt::format("it should hold {0} x {0} numbers, but has {1}", N, words.size()),
                 "write the matrix row by row");

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 namespace swiftlet {
 
@@ -24,7 +25,8 @@ Expected<std::string> read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file.is_open() || file.bad())
-    return fail(ErrorCode::kIo, path.string(), std::string("cannot be read: ") + strerror(errno));
+    return fail(ErrorCode::kIo, path.string(),
+                std::string("cannot be read: ") + std::generic_category().message(errno));
   return content;
 }
 

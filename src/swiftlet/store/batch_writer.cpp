@@ -4,6 +4,7 @@
 #include "swiftlet/store/batch_writer.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <string>
 
 namespace swiftlet {
@@ -199,11 +200,11 @@ void BatchWriter::set_known(const BlockIndex& index, const std::optional<Known>&
 }
 
 void BatchWriter::undo() {
-  for (auto step = undo_.rbegin(); step != undo_.rend(); ++step) {
-    if (step->second) {
-      known_[step->first] = *step->second;
+  for (const auto& [index, before] : undo_ | std::views::reverse) {
+    if (before) {
+      known_[index] = *before;
     } else {
-      known_.erase(step->first);
+      known_.erase(index);
     }
   }
   undo_.clear();

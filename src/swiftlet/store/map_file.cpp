@@ -38,8 +38,11 @@ Status visit_rows(Statement& statement, const MapFile::VisitRow& visit) {
   Status status = Done{};
   for (;;) {
     auto has_row = statement.step();
-    if (!has_row) status = forward_error(std::move(has_row));
-    if (!status || !*has_row) break;
+    if (!has_row) {
+      status = forward_error(std::move(has_row));
+      break;
+    }
+    if (!*has_row) break;
     status = visit(row_of(statement));
     if (!status) break;
   }

@@ -19,7 +19,7 @@ OutputFile::OutputFile(std::filesystem::path path, std::filesystem::path tempora
 Expected<OutputFile> OutputFile::create(const std::filesystem::path& path) {
   OutputFile file(path, path.string() + ".part");
   if (file.stream_) return file;
-  const std::string reason = std::strerror(errno);
+  const std::string reason = std::generic_category().message(errno);
   file.temporary_.clear();  // there is nothing to remove
   return fail(ErrorCode::kIo, path.string(), "the file cannot be written (" + reason + ")",
               "check that the folder exists and may be written");

@@ -6,6 +6,7 @@
 #include <sqlite3.h>
 
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "swiftlet/base/narrow.hpp"
@@ -17,7 +18,8 @@ constexpr int kBusyTimeout_ms = 1000;
 
 std::string system_reason(sqlite3* connection) {
   const int number = connection == nullptr ? 0 : sqlite3_system_errno(connection);
-  return number == 0 ? std::string{} : std::string(" (") + std::strerror(number) + ")";
+  return number == 0 ? std::string{}
+                     : std::string(" (") + std::generic_category().message(number) + ")";
 }
 
 tl::unexpected<Error> failure(sqlite3* connection, int code, const std::string& where) {

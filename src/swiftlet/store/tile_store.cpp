@@ -11,7 +11,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::uint64_t kMinCapBytes = 128 * 1024;
+constexpr std::uint64_t kMinCapBytes = std::uint64_t{128} << 10U;
 
 Status validate(const TileStoreOptions& o) {
   using std::chrono::milliseconds;
