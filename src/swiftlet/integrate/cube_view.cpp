@@ -33,6 +33,7 @@ CubeView::CubeView(const DepthView& view, double voxel_m)
     const Float3& a = camera_axis_[i];
     half_extent_[i] = std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]);
   }
+  direction_at_origin_ = direction(0.0F, 0.0F);
   const Float3& optical = camera_axis_[2];
   for (int i = 0; i < 3; ++i) {
     half_axis_[i] = half * std::abs(optical[i]);
@@ -80,6 +81,15 @@ Footprint CubeView::footprint(const CubeInView& cube) const {
     return edge * (edge > 0.0F ? per_near : per_far);
   };
   return {fx_ * low(0) + cx_, fy_ * low(1) + cy_, fx_ * high(0) + cx_, fy_ * high(1) + cy_};
+}
+
+bool CubeView::meets_frustum(const CubeInView& cube) const {
+  const float z = cube.z_far();
+  const float x = cube.p_camera[0], ex = cube.half_camera[0];
+  const float y = cube.p_camera[1], ey = cube.half_camera[1];
+  return z > 0.0F && fx_ * (x + ex) + (cx_ + 0.5F) * z >= 0.0F &&
+         fx_ * (x - ex) - (u_edge_ - cx_) * z <= 0.0F &&
+         fy_ * (y + ey) + (cy_ + 0.5F) * z >= 0.0F && fy_ * (y - ey) - (v_edge_ - cy_) * z <= 0.0F;
 }
 
 PixelRect CubeView::pixels(const Footprint& f) const {

@@ -57,6 +57,8 @@ class CubeView {
   [[nodiscard]] bool meets_image(const Footprint& f) const {
     return f.u1 >= -0.5F && f.v1 >= -0.5F && f.u0 <= u_edge_ && f.v0 <= v_edge_;
   }
+  /// Whether any of a cube that the camera's plane may cut lies between the four sides of the view.
+  [[nodiscard]] bool meets_frustum(const CubeInView& cube) const;
   [[nodiscard]] bool is_inside_image(const Footprint& f) const {
     return f.u0 >= -0.5F && f.v0 >= -0.5F && f.u1 <= u_edge_ && f.v1 <= v_edge_;
   }
@@ -69,6 +71,11 @@ class CubeView {
     return {camera_axis_[0][0] * x + camera_axis_[1][0] * y + camera_axis_[2][0],
             camera_axis_[0][1] * x + camera_axis_[1][1] * y + camera_axis_[2][1],
             camera_axis_[0][2] * x + camera_axis_[1][2] * y + camera_axis_[2][2]};
+  }
+  /// World axis i of that direction, times `sign`, as the coefficients of (u, v, 1).
+  [[nodiscard]] Float3 direction_row(int i, float sign) const {
+    return {sign * camera_axis_[0][i] * per_fx_, sign * camera_axis_[1][i] * per_fy_,
+            sign * direction_at_origin_[i]};
   }
   /// Where a point [m, camera] appears. REQUIRES: p[2] > 0.
   [[nodiscard]] std::array<float, 2> project(const Float3& p) const {
@@ -98,6 +105,7 @@ class CubeView {
   float voxel_m_;
   std::array<double, 3> camera_m_;     // where the camera is [m, world]
   std::array<Float3, 3> camera_axis_;  // its axes x, y, z [world]
+  Float3 direction_at_origin_;         // of pixel (0, 0)
   Float3 half_extent_;                 // of a cube of half edge 1, in camera axes
   Float3 half_axis_;  // |depth| between a cell's centre and the middles of its faces
   Float3 spread_;     // 6 var(depth) over the faces

@@ -9,10 +9,11 @@
 namespace swiftlet {
 namespace {
 
-constexpr DepthRange kNothing{0xffff, 0};
+constexpr DepthRange kNothing{0xffff, 0, 0xffff};
 
 DepthRange join(const DepthRange& a, const DepthRange& b) {
-  return {std::min(a.nearest, b.nearest), std::max(a.farthest, b.farthest)};
+  return {std::min(a.nearest, b.nearest), std::max(a.farthest, b.farthest),
+          std::min(a.smallest, b.smallest)};
 }
 
 }  // namespace
@@ -43,7 +44,8 @@ void DepthPyramid::build_tiles(const Image<std::uint16_t>& raw) {
       const std::uint16_t* row = raw.row(v).data();
       for (int u = 0; u < raw.width(); ++u) {
         DepthRange& tile = tiles[u >> kTileShift];
-        tile = join(tile, {row[u], row[u]});
+        const auto reading = static_cast<std::uint16_t>(row[u] == 0 ? 0xffff : row[u]);
+        tile = join(tile, {reading, row[u], row[u]});
       }
     }
   }

@@ -13,11 +13,12 @@ namespace swiftlet {
 
 /// What a rectangle of a depth image holds, in device units.
 struct DepthRange {
-  std::uint16_t nearest;   ///< smallest reading; 0 if a pixel has none
-  std::uint16_t farthest;  ///< largest reading; 0 if no pixel has one
+  std::uint16_t nearest;   ///< smallest reading; 0xffff if there is none
+  std::uint16_t farthest;  ///< largest reading; 0 if there is none
+  std::uint16_t smallest;  ///< smallest value, missing readings (0) counted too
 
   [[nodiscard]] bool has_readings() const { return farthest != 0; }
-  [[nodiscard]] bool is_complete() const { return nearest != 0; }
+  [[nodiscard]] bool is_complete() const { return smallest != 0; }
 };
 
 /// Pixels [u0, u1] x [v0, v1], both inside.
@@ -26,8 +27,7 @@ struct PixelRect {
 };
 
 /// Nearest and farthest reading of rectangles of a depth image, in constant time: tiles of 4 x 4
-/// pixels, of 8 x 8 and so on. A missing reading counts as nearest = 0, so that one comparison
-/// tells both "all pixels are valid" and "all are far".
+/// pixels, of 8 x 8 and so on.
 class DepthPyramid {
  public:
   /// Allocates only while images grow.

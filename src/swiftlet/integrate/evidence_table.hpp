@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "swiftlet/integrate/depth_pyramid.hpp"
+#include "swiftlet/integrate/reading_sums.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 
 namespace swiftlet {
@@ -43,19 +44,16 @@ class EvidenceTable {
     return std::min(clear_m(range.nearest), clear_m(range.farthest));
   }
 
-  /// Log-odds * kOne that a reading gives a cell `gap_m` behind (positive) or in front of it.
-  [[nodiscard]] std::int16_t at(std::uint16_t raw, float gap_m) const {
-    const float z = depth_m(raw);
-    const float column = gap_m * kPerSigma / (sigma_per_z2_ * z * z) + kPerSigma * kInFrontSigma;
-    if (column < 0.0F) return free_;
-    if (column >= static_cast<float>(kColumns)) return 0;
-    return rows_[raw >> shift_][static_cast<std::size_t>(column)];
+  /// The part of a query that describes readings.
+  void describe(ReadingQuery& query) const;
+  [[nodiscard]] std::int32_t free() const { return free_; }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return rows_.capacity() * (sizeof(Row) + sizeof(float));
   }
-  [[nodiscard]] std::int16_t free() const { return free_; }
-  [[nodiscard]] std::size_t memory_bytes() const { return rows_.capacity() * sizeof(Row); }
 
  private:
-  using Row = std::array<std::int16_t, kColumns>;
+  /// Column 0 is all that lies in front of the tabulated ones, the last all that lies behind.
+  using Row = std::array<std::int32_t, kColumns + 2>;
   struct Key {
     float unit_m = 0.0F;
     double sigma_per_z2 = 0.0;
@@ -73,8 +71,9 @@ class EvidenceTable {
   float unit_m_ = 0.0F;
   float sigma_per_z2_ = 0.0F;
   int shift_ = 0;  // raw >> shift_ is the row
-  std::int16_t free_ = 0;
+  std::int32_t free_ = 0;
   std::vector<Row> rows_;
+  std::vector<float> columns_per_m_;  // of each row: kPerSigma / sigma
 };
 
 }  // namespace swiftlet

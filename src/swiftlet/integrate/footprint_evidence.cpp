@@ -4,36 +4,34 @@
 #include "swiftlet/integrate/footprint_evidence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace swiftlet {
 namespace {
 
-/// Samples along each side of a footprint; wider ones are sampled every k-th pixel.
-constexpr int kSamplesAcross = 8;
-constexpr int kSamplesAcrossNear = 24;
+/// A cell's image is looked at in this many of its rows, at least; in all of them if it has fewer.
+constexpr int kRows = 24;
 
-/// The part of a ray inside a cube.
-struct Crossing {
-  float z_in, z_out;
-  [[nodiscard]] bool is_hit() const { return z_in <= z_out && z_out > 0.0F; }
-};
+/// The whole image is looked at where the camera's plane may cut the cell, in this many rows.
+constexpr int kRowsNear = 48;
 
-Crossing cross(const Float3& centre, float half, const Float3& direction) {
-  Crossing c{-1e30F, 1e30F};
-  for (int i = 0; i < 3; ++i) {
-    // A ray along a face crosses its slab at infinity, or always: 1e-12 keeps that a number.
-    const float per = 1.0F / std::copysign(std::max(std::abs(direction[i]), 1e-12F), direction[i]);
-    const float a = (centre[i] - half) * per, b = (centre[i] + half) * per;
-    c.z_in = std::max(c.z_in, std::min(a, b));
-    c.z_out = std::min(c.z_out, std::max(a, b));
+int stride_of(float height_px, int rows) { return std::max(1, static_cast<int>(height_px) / rows); }
+
+/// Runs of one cell. A stride_of() rounds down, so there are at most twice as many rows and one.
+class RunList {
+ public:
+  void add(const Image<std::uint16_t>& raw, int v, int first, int last) {
+    runs_[count_++] = {&raw.at(first, v), last - first + 1, static_cast<float>(first),
+                       static_cast<float>(v)};
   }
-  return c;
-}
+  [[nodiscard]] std::span<const PixelRun> all() const { return {runs_.data(), count_}; }
 
-int stride_of(int width, int height, int samples_across) {
-  return std::max(1, (std::max(width, height) + samples_across - 1) / samples_across);
-}
+ private:
+  std::array<PixelRun, 2 * kRowsNear + 2> runs_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -46,22 +44,62 @@ FootprintEvidence::FootprintEvidence(const CubeView& view, const Image<std::uint
       half_voxel_m_(0.5F * view.voxel_m()),
       weight_per_z2_(static_cast<float>(sensor.weight(1.0))),
       steps_per_one_(static_cast<float>(kOneStep / logodds_per_step / EvidenceTable::kOne)),
-      free_steps_(steps_per_one_ * static_cast<float>(table.free())) {}
+      free_steps_(steps_per_one_ * static_cast<float>(table.free())) {
+  table.describe(query_);
+  query_.half_voxel = half_voxel_m_;
+  query_.image_end = raw.pixels().data() + raw.pixels().size();
+}
+
+template <class AddRun>
+FootprintEvidence::Samples FootprintEvidence::sample(const CubeInView& cell,
+                                                     const Silhouette& silhouette,
+                                                     AddRun&& add_run) const {
+  const Footprint f = view_.footprint(cell);
+  const int stride = stride_of(f.v1 - f.v0, kRows);
+  Samples samples;
+  // Rays are counted outside the image, too: only the share of the cell that is in view counts.
+  const int v_last = static_cast<int>(std::floor(f.v1));
+  int v = static_cast<int>(std::ceil(f.v0));
+  for (v += (v_last - v) % stride / 2; v <= v_last; v += stride) {
+    const Silhouette::Run run = silhouette.run(v, f.u0, f.u1);
+    if (run.first > run.last) continue;
+    samples.rays += run.last - run.first + 1;
+    if (v < 0 || v >= view_.height()) continue;
+    const int first = std::max(run.first, 0), last = std::min(run.last, view_.width() - 1);
+    if (first <= last) add_run(v, first, last);
+  }
+  return samples;
+}
 
 FixedSteps FootprintEvidence::of_cell(const CubeInView& cell) const {
   const float z = cell.p_camera[2];
   if (z <= 0.0F) return 0;  // the camera's own cell, its centre behind the lens: as the rays do
   if (z < counting_m()) return counted(cell);
+  const Silhouette silhouette(view_, cell);
+  RunList runs;
+  Samples samples =
+      sample(cell, silhouette, [&](int v, int first, int last) { runs.add(raw_, v, first, last); });
+  if (samples.rays == 0) return mean_of(cell, nearest(cell, silhouette));
+  samples.log_odds = sum_readings(runs.all(), query_for(cell, silhouette));
+  return mean_of(cell, samples);
+}
 
-  const Footprint f = view_.footprint(cell);
-  const PixelRect rect{static_cast<int>(std::ceil(f.u0)), static_cast<int>(std::ceil(f.v0)),
-                       static_cast<int>(std::floor(f.u1)), static_cast<int>(std::floor(f.v1))};
-  const int stride = stride_of(rect.u1 - rect.u0 + 1, rect.v1 - rect.v0 + 1, kSamplesAcross);
-  const Samples samples = sample(cell, rect, stride);
-  if (samples.rays == 0) return nearest(cell);
-  if (samples.log_odds == 0) return 0;
+FixedSteps FootprintEvidence::of_seen_cell(const CubeInView& cell) const {
+  const Silhouette silhouette(view_, cell);
+  std::int32_t seen = 0;
+  Samples samples = sample(cell, silhouette, [&](int v, int first, int last) {
+    const std::uint16_t* row = raw_.row(v).data();
+    for (int u = first; u <= last; ++u) seen += row[u] != 0 ? 1 : 0;
+  });
+  if (samples.rays == 0) return mean_of(cell, nearest(cell, silhouette));
+  samples.log_odds = seen * table_.free();
+  return mean_of(cell, samples);
+}
+
+FixedSteps FootprintEvidence::mean_of(const CubeInView& cell, const Samples& samples) const {
   const float mean = static_cast<float>(samples.log_odds) / static_cast<float>(samples.rays);
-  return static_cast<FixedSteps>(view_.observations(cell.p_world, z) * mean * steps_per_one_);
+  return static_cast<FixedSteps>(view_.observations(cell.p_world, cell.p_camera[2]) * mean *
+                                 steps_per_one_);
 }
 
 FixedSteps FootprintEvidence::counted(const CubeInView& cell) const {
@@ -71,52 +109,36 @@ FixedSteps FootprintEvidence::counted(const CubeInView& cell) const {
     if (!view_.meets_image(f)) return 0;
     rect = view_.pixels(f);
   }
-  const int stride = stride_of(rect.u1 - rect.u0 + 1, rect.v1 - rect.v0 + 1, kSamplesAcrossNear);
-  const Samples samples = sample(cell, rect, stride);
+  const int stride = stride_of(static_cast<float>(rect.v1 - rect.v0), kRowsNear);
+  const Silhouette silhouette(view_, cell);
   const float z = cell.p_camera[2];
-  const float rays_per_sample = static_cast<float>(stride) * static_cast<float>(stride);
-  return static_cast<FixedSteps>(static_cast<float>(samples.log_odds) * rays_per_sample * z * z *
-                                 weight_per_z2_ * steps_per_one_);
-}
-
-FixedSteps FootprintEvidence::nearest(const CubeInView& cell) const {
-  const auto [u, v] = view_.project(cell.p_camera);
-  const float nearest_u = std::floor(u + 0.5F), nearest_v = std::floor(v + 0.5F);
-  Samples samples;
-  const float z = cell.p_camera[2];
-  add_reading(z, z - half_voxel_m_, static_cast<int>(nearest_u), static_cast<int>(nearest_v),
-              samples);
-  return static_cast<FixedSteps>(view_.observations(cell.p_world, z) *
-                                 static_cast<float>(samples.log_odds) * steps_per_one_);
-}
-
-FootprintEvidence::Samples FootprintEvidence::sample(const CubeInView& cell, const PixelRect& rect,
-                                                     int stride) const {
-  Samples samples;
-  const int u_first = rect.u0 + (rect.u1 - rect.u0) % stride / 2;
-  const int v_first = rect.v0 + (rect.v1 - rect.v0) % stride / 2;
-  for (int v = v_first; v <= rect.v1; v += stride) {
-    for (int u = u_first; u <= rect.u1; u += stride) add_sample(cell, u, v, samples);
+  RunList runs;
+  for (int v = rect.v0 + (rect.v1 - rect.v0) % stride / 2; v <= rect.v1; v += stride) {
+    const Silhouette::Run run =
+        silhouette.run(v, static_cast<float>(rect.u0), static_cast<float>(rect.u1));
+    if (run.first <= run.last) runs.add(raw_, v, run.first, run.last);
   }
-  return samples;
+  const auto sum = static_cast<float>(sum_readings(runs.all(), query_for(cell, silhouette)));
+  return static_cast<FixedSteps>(sum * static_cast<float>(stride) * z * z * weight_per_z2_ *
+                                 steps_per_one_);
 }
 
-void FootprintEvidence::add_sample(const CubeInView& cell, int u, int v, Samples& samples) const {
-  const Crossing crossing = cross(cell.p_world, half_voxel_m_,
-                                  view_.direction(static_cast<float>(u), static_cast<float>(v)));
-  if (!crossing.is_hit()) return;
-  ++samples.rays;
-  add_reading(cell.p_camera[2], crossing.z_in, u, v, samples);
+FootprintEvidence::Samples FootprintEvidence::nearest(const CubeInView& cell,
+                                                      const Silhouette& silhouette) const {
+  const auto [x, y] = view_.project(cell.p_camera);
+  const int u = static_cast<int>(std::floor(x + 0.5F)), v = static_cast<int>(std::floor(y + 0.5F));
+  if (u < 0 || v < 0 || u >= view_.width() || v >= view_.height()) return {0, 1};
+  RunList runs;
+  runs.add(raw_, v, u, u);
+  return {sum_readings(runs.all(), query_for(cell, silhouette)), 1};
 }
 
-void FootprintEvidence::add_reading(float z, float z_in, int u, int v, Samples& samples) const {
-  if (u < 0 || v < 0 || u >= view_.width() || v >= view_.height()) return;
-  const std::uint16_t raw = raw_.at(u, v);
-  if (raw == 0 || z_in > table_.reach_m(raw))
-    return;  // no reading, or its ray ends before the cell
-  const float offset = z - table_.depth_m(raw);
-  const float gap = std::max(0.0F, std::abs(offset) - half_voxel_m_);
-  samples.log_odds += table_.at(raw, std::copysign(gap, offset));
+ReadingQuery FootprintEvidence::query_for(const CubeInView& cell,
+                                          const Silhouette& silhouette) const {
+  ReadingQuery query = query_;
+  query.z = cell.p_camera[2];
+  silhouette.describe(view_, query);
+  return query;
 }
 
 }  // namespace swiftlet

@@ -7,6 +7,7 @@
 
 #include "swiftlet/integrate/cube_view.hpp"
 #include "swiftlet/integrate/evidence_table.hpp"
+#include "swiftlet/integrate/silhouette.hpp"
 #include "swiftlet/integrate/step_rounding.hpp"
 
 namespace swiftlet {
@@ -21,6 +22,9 @@ class FootprintEvidence {
 
   /// Evidence of a cell that may hold a surface, missing readings, or the edge of the image.
   [[nodiscard]] FixedSteps of_cell(const CubeInView& cell) const;
+
+  /// Evidence of a cell that every ray with a reading passes; some pixels have none.
+  [[nodiscard]] FixedSteps of_seen_cell(const CubeInView& cell) const;
 
   /// Evidence of a cell that every ray through it passes.
   [[nodiscard]] FixedSteps of_free_cell(const Float3& p_world, float z) const {
@@ -37,11 +41,13 @@ class FootprintEvidence {
     std::int32_t log_odds = 0;  // sum of EvidenceTable values
     std::int32_t rays = 0;      // samples whose ray crosses the cell
   };
-  [[nodiscard]] Samples sample(const CubeInView& cell, const PixelRect& rect, int stride) const;
-  void add_sample(const CubeInView& cell, int u, int v, Samples& samples) const;
-  void add_reading(float z, float z_in, int u, int v, Samples& samples) const;
+  template <class AddRun>
+  Samples sample(const CubeInView& cell, const Silhouette& silhouette, AddRun&& add_run) const;
+  [[nodiscard]] Samples nearest(const CubeInView& cell, const Silhouette& silhouette) const;
+  [[nodiscard]] FixedSteps mean_of(const CubeInView& cell, const Samples& samples) const;
   [[nodiscard]] FixedSteps counted(const CubeInView& cell) const;
-  [[nodiscard]] FixedSteps nearest(const CubeInView& cell) const;
+
+  [[nodiscard]] ReadingQuery query_for(const CubeInView& cell, const Silhouette& silhouette) const;
 
   const CubeView& view_;
   const Image<std::uint16_t>& raw_;
@@ -50,6 +56,7 @@ class FootprintEvidence {
   float weight_per_z2_;  // DW = z^2 times this
   float steps_per_one_;  // FixedSteps per unit of the table
   float free_steps_;
+  ReadingQuery query_{};  // all but the cell
 };
 
 }  // namespace swiftlet

@@ -14,7 +14,7 @@ namespace swiftlet {
 namespace {
 
 /// What a frame can say about a cube of cells.
-enum class Verdict { kNothing, kFree, kMixed };
+enum class Verdict { kNothing, kFree, kFreeWithHoles, kMixed };
 
 /// Evidence of one frame, cube by cube: where the depth image says the same about all of a cube,
 /// its cells get it at once; elsewhere the cube is halved, down to single cells.
@@ -30,17 +30,18 @@ class FrameEvidence {
   }
 
   [[nodiscard]] Verdict judge(const CubeInView& cube) const {
-    if (cube.z_far() <= 0.0F) return Verdict::kNothing;
-    if (cube.z_near() < 0.5F * view_.voxel_m()) return Verdict::kMixed;
+    if (cube.z_near() < 0.5F * view_.voxel_m())
+      return view_.meets_frustum(cube) ? Verdict::kMixed : Verdict::kNothing;
     const Footprint f = view_.footprint(cube);
     if (!view_.meets_image(f)) return Verdict::kNothing;
     const DepthRange range = pyramid_.range_of(view_.pixels(f));
     if (!range.has_readings()) return Verdict::kNothing;
     if (cube.z_near() + slice_inset_m_ > table_.reach_m(range.farthest)) return Verdict::kNothing;
-    const bool is_free = range.is_complete() && view_.is_inside_image(f) &&
-                         cube.z_near() > footprints_.counting_m() &&
-                         cube.z_far() - slice_inset_m_ < table_.clear_m(range);
-    return is_free ? Verdict::kFree : Verdict::kMixed;
+    const bool is_clear = cube.z_near() > footprints_.counting_m() &&
+                          cube.z_far() - slice_inset_m_ < table_.clear_m(range);
+    if (!is_clear) return Verdict::kMixed;
+    return range.is_complete() && view_.is_inside_image(f) ? Verdict::kFree
+                                                           : Verdict::kFreeWithHoles;
   }
 
   /// Fills the evidence of a cube of `edge` cells whose first has this offset in its block.
@@ -49,19 +50,39 @@ class FrameEvidence {
       evidence[offset] = footprints_.of_cell(cube);
       return;
     }
-    const int half = edge / 2;
-    for (int i = 0; i < 8; ++i) {
-      const int x = i & 1, y = (i >> 1) & 1, z = i >> 2;
-      const CubeInView part = view_.child(cube, half, x, y, z);
-      const std::size_t part_offset =
-          offset + static_cast<std::size_t>(half * (x + kBlockEdge * (y + kBlockEdge * z)));
-      const Verdict verdict = judge(part);
-      if (verdict == Verdict::kFree) {
-        fill_free(part, half, part_offset, evidence);
-      } else if (verdict == Verdict::kMixed) {
-        descend(part, half, part_offset, evidence);
+    for_each_part(cube, edge, offset, [&](const CubeInView& part, std::size_t part_offset) {
+      switch (judge(part)) {
+        case Verdict::kNothing:
+          break;
+        case Verdict::kFree:
+          fill_free(part, edge / 2, part_offset, evidence);
+          break;
+        case Verdict::kFreeWithHoles:
+          fill_seen(part, edge / 2, part_offset, evidence);
+          break;
+        case Verdict::kMixed:
+          descend(part, edge / 2, part_offset, evidence);
+          break;
       }
+    });
+  }
+
+  /// Every cell is free as far as it is seen. Complete parts of it are still told apart while that
+  /// saves looking at each cell.
+  void fill_seen(const CubeInView& cube, int edge, std::size_t offset, FixedSteps* evidence) const {
+    if (edge == 1) {
+      evidence[offset] = footprints_.of_seen_cell(cube);
+      return;
     }
+    for_each_part(cube, edge, offset, [&](const CubeInView& part, std::size_t part_offset) {
+      const Verdict verdict = edge > 2 ? judge(part) : Verdict::kFreeWithHoles;
+      if (verdict == Verdict::kNothing) return;
+      if (verdict == Verdict::kFree) {
+        fill_free(part, edge / 2, part_offset, evidence);
+      } else {
+        fill_seen(part, edge / 2, part_offset, evidence);
+      }
+    });
   }
 
   void fill_free(const CubeInView& cube, int edge, std::size_t offset, FixedSteps* evidence) const {
@@ -81,6 +102,16 @@ class FrameEvidence {
   }
 
  private:
+  template <class Visit>
+  void for_each_part(const CubeInView& cube, int edge, std::size_t offset, Visit&& visit) const {
+    const int half = edge / 2;
+    for (int i = 0; i < 8; ++i) {
+      const int x = i & 1, y = (i >> 1) & 1, z = i >> 2;
+      visit(view_.child(cube, half, x, y, z),
+            offset + static_cast<std::size_t>(half * (x + kBlockEdge * (y + kBlockEdge * z))));
+    }
+  }
+
   const CubeView& view_;
   const DepthPyramid& pyramid_;
   const EvidenceTable& table_;
