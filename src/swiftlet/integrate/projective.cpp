@@ -16,6 +16,8 @@ namespace {
 /// What a frame can say about a cube of cells.
 enum class Verdict { kNothing, kFree, kFreeWithHoles, kMixed };
 
+bool is_free(Verdict v) { return v == Verdict::kFree || v == Verdict::kFreeWithHoles; }
+
 /// Evidence of one frame, cube by cube: where the depth image says the same about all of a cube,
 /// its cells get it at once; elsewhere the cube is halved, down to single cells.
 class FrameEvidence {
@@ -44,6 +46,23 @@ class FrameEvidence {
                                                            : Verdict::kFreeWithHoles;
   }
 
+  /// The block that comes next, as the map has it; null if it holds nothing yet.
+  void begin_block(const VoxelBlock* known) { known_ = known; }
+
+  /// Whether the cells of a cube are all surely free: more free evidence changes none of them.
+  [[nodiscard]] bool is_surely_free(int edge, std::size_t offset) const {
+    if (known_ == nullptr) return false;
+    for (int z = 0; z < edge; ++z) {
+      unsigned any = 0;
+      for (int y = 0; y < edge; ++y) {
+        const LogOdds* row = &known_->cells[offset + kBlockEdge * (y + kBlockEdge * z)];
+        for (int x = 0; x < edge; ++x) any |= row[x];
+      }
+      if (any != kFreeCell) return false;
+    }
+    return true;
+  }
+
   /// Fills the evidence of a cube of `edge` cells whose first has this offset in its block.
   void descend(const CubeInView& cube, int edge, std::size_t offset, FixedSteps* evidence) const {
     if (edge == 1) {
@@ -51,7 +70,9 @@ class FrameEvidence {
       return;
     }
     for_each_part(cube, edge, offset, [&](const CubeInView& part, std::size_t part_offset) {
-      switch (judge(part)) {
+      const Verdict verdict = judge(part);
+      if (is_free(verdict) && is_surely_free(edge / 2, part_offset)) return;
+      switch (verdict) {
         case Verdict::kNothing:
           break;
         case Verdict::kFree:
@@ -75,6 +96,7 @@ class FrameEvidence {
       return;
     }
     for_each_part(cube, edge, offset, [&](const CubeInView& part, std::size_t part_offset) {
+      if (is_surely_free(edge / 2, part_offset)) return;
       const Verdict verdict = edge > 2 ? judge(part) : Verdict::kFreeWithHoles;
       if (verdict == Verdict::kNothing) return;
       if (verdict == Verdict::kFree) {
@@ -117,6 +139,7 @@ class FrameEvidence {
   const EvidenceTable& table_;
   const FootprintEvidence& footprints_;
   float slice_inset_m_;
+  const VoxelBlock* known_ = nullptr;
 };
 
 /// The same sum as the rays', from the cell's side (method 6): every cell in view looks up the
@@ -136,12 +159,14 @@ class ProjectiveIntegrator final : public Integrator {
     table_.prepare(sensor, view.depth.unit_m, pyramid_.range().farthest);
     const CubeView cubes(view, map.voxel_m());
     const FootprintEvidence footprints(cubes, raw, table_, sensor, logodds_per_step_);
-    const FrameEvidence frame(cubes, pyramid_, table_, footprints);
+    FrameEvidence frame(cubes, pyramid_, table_, footprints);
 
     for_each_block(map.window(), [&](const BlockIndex& index) {
       const CubeInView cube = cubes.cube(first_voxel(index), kBlockEdge);
       const Verdict verdict = frame.judge(cube);
       if (verdict == Verdict::kNothing) return;
+      frame.begin_block(map.find(index));
+      if (is_free(verdict) && frame.is_surely_free(kBlockEdge, 0)) return;
       if (verdict == Verdict::kFree) {
         frame.fill_free(cube, kBlockEdge, 0, evidence_.data());
       } else {

@@ -48,21 +48,6 @@ void Silhouette::add_side(float entry, const Float3& entry_normal, float exit,
   }
 }
 
-Silhouette::Run Silhouette::run(int v, float u0, float u1) const {
-  const auto row = static_cast<float>(v);
-  if (row < v_low_ || row > v_high_) return {0, -1};
-  for (int i = 0; i < lefts_; ++i) {
-    const Side& side = left_[static_cast<std::size_t>(i)];
-    u0 = std::max(u0, side.u_per_v * row + side.u_offset);
-  }
-  for (int i = 0; i < rights_; ++i) {
-    const Side& side = right_[static_cast<std::size_t>(i)];
-    u1 = std::min(u1, side.u_per_v * row + side.u_offset);
-  }
-  if (u0 > u1) return {0, -1};
-  return {static_cast<int>(std::ceil(u0)), static_cast<int>(std::floor(u1))};
-}
-
 void Silhouette::describe(const CubeView& view, ReadingQuery& query) const {
   for (std::size_t i = 0; i < 3; ++i) {
     const Float3 row = view.direction_row(static_cast<int>(i), sign_[i]);

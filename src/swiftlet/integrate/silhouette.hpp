@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "swiftlet/integrate/cube_view.hpp"
@@ -45,5 +47,20 @@ class Silhouette {
   float v_low_ = -1e9F, v_high_ = 1e9F;
   Float3 near_, sign_;  // sign_ is 0 for a pair of faces around the camera: no ray enters there
 };
+
+inline Silhouette::Run Silhouette::run(int v, float u0, float u1) const {
+  const auto row = static_cast<float>(v);
+  if (row < v_low_ || row > v_high_) return {0, -1};
+  for (int i = 0; i < lefts_; ++i) {
+    const Side& side = left_[static_cast<std::size_t>(i)];
+    u0 = std::max(u0, side.u_per_v * row + side.u_offset);
+  }
+  for (int i = 0; i < rights_; ++i) {
+    const Side& side = right_[static_cast<std::size_t>(i)];
+    u1 = std::min(u1, side.u_per_v * row + side.u_offset);
+  }
+  if (u0 > u1) return {0, -1};
+  return {static_cast<int>(std::ceil(u0)), static_cast<int>(std::floor(u1))};
+}
 
 }  // namespace swiftlet
