@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace swiftlet {
 namespace {
@@ -33,6 +34,11 @@ void EvidenceTable::start_over(const Key& key, const InverseSensorModel& model) 
   unit_m_ = key.unit_m;
   sigma_per_z2_ = static_cast<float>(key.sigma_per_z2);
   free_ = quantised(model.free_log_odds());
+  // p reaches p_max at the reading while k / (sigma sqrt(2 pi)) >= p_max - 0.5.
+  const InverseSensorModel::Options& o = key.model;
+  const double sigma_m = o.importance_m / (std::sqrt(2.0 * std::numbers::pi) * (o.p_max - 0.5));
+  sure_z_m_ = static_cast<float>(std::sqrt(sigma_m / key.sigma_per_z2));
+  at_reading_ = quantised(model.log_odds(0.0, 0.5 * sigma_m));
   for (shift_ = 0; unit_m_ * static_cast<float>(1 << shift_) < kRowDepth_m && shift_ < 12;)
     ++shift_;
   rows_.clear();
@@ -62,6 +68,10 @@ void EvidenceTable::describe(ReadingQuery& query) const {
   query.log_odds = rows_.front().data();
   query.row_shift = shift_;
   query.row_length = static_cast<std::int32_t>(std::tuple_size_v<Row>);
+  query.clear_per_reach = kInFrontSigma / static_cast<float>(InverseSensorModel::kBandSigma);
+  query.free = free_;
+  query.at_reading = at_reading_;
+  query.sure_z = sure_z_m_;
   query.zero_column = kPerSigma * kInFrontSigma + 1.0F;
   query.last_column = static_cast<float>(kColumns + 1);
 }

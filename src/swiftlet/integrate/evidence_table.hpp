@@ -72,6 +72,8 @@ class EvidenceTable {
   float sigma_per_z2_ = 0.0F;
   int shift_ = 0;  // raw >> shift_ is the row
   std::int32_t free_ = 0;
+  std::int32_t at_reading_ = 0;  // the upper limit of the model
+  float sure_z_m_ = 0.0F;        // up to here a reading reaches it
   std::vector<Row> rows_;
   std::vector<float> columns_per_m_;  // of each row: kPerSigma / sigma
 };

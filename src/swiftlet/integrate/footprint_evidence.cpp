@@ -12,7 +12,7 @@ namespace swiftlet {
 namespace {
 
 /// A cell's image is looked at in this many of its rows, at least; in all of them if it has fewer.
-constexpr int kRows = 24;
+constexpr int kRows = 48;
 
 /// The whole image is looked at where the camera's plane may cut the cell, in this many rows.
 constexpr int kRowsNear = 48;

@@ -34,6 +34,17 @@ HWY_INLINE hn::Mask<Floats> is_entered(const ReadingQuery& q, std::size_t axis, 
   return hn::Ge(hn::Mul(z_end, direction), hn::Set(f, q.near[axis]));
 }
 
+HWY_INLINE IntLanes tabulated(const ReadingQuery& q, IntLanes raw, FloatLanes gap) {
+  constexpr Floats f;
+  constexpr Ints i;
+  const IntLanes row = hn::ShiftRightSame(raw, q.row_shift);
+  const FloatLanes per_m = hn::GatherIndex(f, q.columns_per_m, row);
+  const FloatLanes place = hn::Add(hn::Mul(gap, per_m), hn::Set(f, q.zero_column));
+  const FloatLanes column = hn::Min(hn::Max(place, hn::Zero(f)), hn::Set(f, q.last_column));
+  const IntLanes index = hn::Add(hn::Mul(row, hn::Set(i, q.row_length)), hn::ConvertTo(i, column));
+  return hn::GatherIndex(i, q.log_odds, index);
+}
+
 HWY_INLINE IntLanes evidence(const ReadingQuery& q, hn::Vec<Raws> raw16, FloatLanes u, float v) {
   constexpr Floats f;
   constexpr Ints i;
@@ -46,17 +57,24 @@ HWY_INLINE IntLanes evidence(const ReadingQuery& q, hn::Vec<Raws> raw16, FloatLa
   const FloatLanes outside = hn::Sub(hn::Abs(offset), hn::Set(f, q.half_voxel));
   const FloatLanes gap = hn::CopySign(hn::Max(outside, hn::Zero(f)), offset);
 
-  const IntLanes row = hn::ShiftRightSame(raw, q.row_shift);
-  const FloatLanes per_m = hn::GatherIndex(f, q.columns_per_m, row);
-  const FloatLanes place = hn::Add(hn::Mul(gap, per_m), hn::Set(f, q.zero_column));
-  const FloatLanes column = hn::Min(hn::Max(place, hn::Zero(f)), hn::Set(f, q.last_column));
-  const IntLanes index = hn::Add(hn::Mul(row, hn::Set(i, q.row_length)), hn::ConvertTo(i, column));
-  const IntLanes value = hn::GatherIndex(i, q.log_odds, index);
-
   const auto reaches =
       hn::And(is_entered(q, 0, u, v, z_end),
               hn::And(is_entered(q, 1, u, v, z_end), is_entered(q, 2, u, v, z_end)));
-  return hn::IfThenElseZero(hn::And(hn::RebindMask(i, reaches), hn::Ne(raw, hn::Zero(i))), value);
+  const auto counts = hn::And(reaches, hn::Gt(z_reading, hn::Zero(f)));
+
+  // Most readings are far from the cell or in it, near enough for the model's upper limit: no
+  // table.
+  const auto is_free = hn::Lt(gap, hn::Mul(reach, hn::Set(f, -q.clear_per_reach)));
+  const auto is_behind = hn::Gt(gap, reach);
+  const auto is_at = hn::And(hn::Le(outside, hn::Zero(f)), hn::Le(z_reading, hn::Set(f, q.sure_z)));
+  const auto is_plain = hn::Or(is_free, hn::Or(is_behind, is_at));
+  IntLanes value =
+      hn::IfThenElse(hn::RebindMask(i, is_free), hn::Set(i, q.free),
+                     hn::IfThenElseZero(hn::RebindMask(i, is_at), hn::Set(i, q.at_reading)));
+  const auto is_open = hn::AndNot(is_plain, counts);
+  if (!hn::AllFalse(f, is_open))
+    value = hn::IfThenElse(hn::RebindMask(i, is_open), tabulated(q, raw, gap), value);
+  return hn::IfThenElseZero(hn::RebindMask(i, counts), value);
 }
 
 std::int32_t sum_over(const PixelRun* runs, std::size_t run_count, const ReadingQuery& q) {

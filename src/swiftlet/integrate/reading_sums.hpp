@@ -32,6 +32,10 @@ struct ReadingQuery {
   int row_shift;  // row = raw >> row_shift
   std::int32_t row_length;
   float zero_column, last_column;
+  // What needs no table: clearly in front; at the reading, while that is nearer than sure_z.
+  float clear_per_reach;  // "clearly" is this much times 3 sigma
+  std::int32_t free, at_reading;
+  float sure_z;
   const std::uint16_t* image_end;  // nothing may be read from here on
 };
 
