@@ -23,7 +23,7 @@ using namespace swiftlet;
 
 constexpr double kRange_m = 10.0;
 
-/// Every third of the first frames, conditioned; made once.
+/// Every tenth frame from the start of the flight, conditioned; made once.
 struct Flight {
   std::vector<Frame> frames;
   std::vector<ConditionedDepth> depths;
