@@ -6,12 +6,13 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(tl-expected REQUIRED)
 find_package(fmt 9 REQUIRED)
 find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)  # SIMD, with dispatch at run time
 
 # I/O: what swiftlet::swiftlet adds.
 find_package(SQLite3 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(yaml-cpp REQUIRED)
-find_package(PkgConfig REQUIRED)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 
 # Optional parts (see swiftlet_backend()).

@@ -202,7 +202,7 @@ TEST(EvidenceSums, round_without_bias) {
       sums.begin(map.window());
       for (int cell = 0; cell < kBlockVoxels; ++cell) {
         sums.add(voxel_at({0, 0, 0}, cell),
-                 static_cast<std::int32_t>(fraction * EvidenceSums::kOneStep));
+                 static_cast<std::int32_t>(fraction * kOneStep));
       }
       sums.apply(frame, map);
       for (const LogOdds cell : map.find({0, 0, 0})->cells) total += cell - kUnknownCell;
@@ -216,8 +216,8 @@ TEST(EvidenceSums, saturate_instead_of_wrapping) {
   EvidenceSums sums;
   for (std::uint64_t frame = 0; frame < 3; ++frame) {
     sums.begin(map.window());
-    sums.add({1, 1, 1}, 100 << EvidenceSums::kFractionBits);
-    sums.add({2, 1, 1}, -(100 << EvidenceSums::kFractionBits));
+    sums.add({1, 1, 1}, 100 << kStepFractionBits);
+    sums.add({2, 1, 1}, -(100 << kStepFractionBits));
     sums.apply(frame, map);
   }
   EXPECT_EQ(map.log_odds({1, 1, 1}), kOccupiedCell);

@@ -42,19 +42,10 @@ EvidenceSums::BlockSums& EvidenceSums::find_or_touch(const BlockIndex& block) {
 }
 
 std::size_t EvidenceSums::apply(std::uint64_t frame_number, RollingMap& map) {
-  constexpr std::uint64_t kFractionMask = (std::uint64_t{1} << kFractionBits) - 1;
   std::size_t cells = 0;
   for (std::size_t i = 0; i < touched_.size(); ++i) {
-    VoxelBlock& block = map.writable(touched_[i]);
-    const std::uint64_t seed = mix_bits(BlockHash{}(touched_[i]) ^ mix_bits(frame_number));
-    for (std::size_t cell = 0; cell < kBlockVoxels; ++cell) {
-      const std::int64_t sum = sums_[i][cell];
-      if (sum == 0) continue;
-      const auto dither = static_cast<std::int64_t>(mix_bits(seed + cell) & kFractionMask);
-      block.cells[cell] =
-          add_steps(block.cells[cell], static_cast<std::int32_t>((sum + dither) >> kFractionBits));
-      ++cells;
-    }
+    cells +=
+        add_evidence(sums_[i], rounding_seed(touched_[i], frame_number), map.writable(touched_[i]));
     sums_[i].fill(0);
   }
   return cells;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "swiftlet/integrate/step_rounding.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 
 namespace swiftlet {
@@ -21,28 +22,23 @@ namespace swiftlet {
 /// 190 units of the last place.
 class EvidenceSums {
  public:
-  static constexpr int kFractionBits = 20;
-  static constexpr double kOneStep = 1 << kFractionBits;
-
   /// Forgets all sums; `window` is where the next ones may fall. Allocates only while the frames
   /// grow.
   void begin(const BlockWindow& window);
 
   /// REQUIRES: voxel lies in the window.
-  void add(const VoxelIndex& voxel, std::int32_t fixed_steps) {
+  void add(const VoxelIndex& voxel, FixedSteps fixed_steps) {
     sums_of(block_of(voxel))[offset_in_block(voxel)] += fixed_steps;
   }
 
-  /// Adds every sum to its cell once, saturating. The fraction of a step becomes a whole one with
-  /// that probability, drawn from a hash of cell and frame number: repeatable, unbiased. Returns
-  /// the number of cells with evidence.
+  /// Adds every sum to its cell once (add_evidence()). Returns the number of cells with evidence.
   std::size_t apply(std::uint64_t frame_number, RollingMap& map);
 
   [[nodiscard]] std::size_t touched_blocks() const { return touched_.size(); }
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  using BlockSums = std::array<std::int32_t, kBlockVoxels>;
+  using BlockSums = std::array<FixedSteps, kBlockVoxels>;
   static constexpr std::uint32_t kUntouched = 0xffffffffU;
 
   BlockSums& sums_of(const BlockIndex& block) {

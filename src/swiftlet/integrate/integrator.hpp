@@ -36,7 +36,7 @@ struct DepthView {
 /// What one frame did to the map.
 struct IntegrationTally {
   std::size_t readings = 0;  ///< valid pixels that were fused
-  std::size_t cells = 0;     ///< cells that received evidence
+  std::size_t cells = 0;     ///< cells that received evidence; surely free ones may be left out
   std::size_t blocks = 0;    ///< blocks that hold them
 };
 

@@ -16,7 +16,7 @@ namespace {
 class RayIntegrator final : public Integrator {
  public:
   RayIntegrator(TraceRay trace, double logodds_per_step)
-      : trace_(trace), fixed_per_logodds_(EvidenceSums::kOneStep / logodds_per_step) {}
+      : trace_(trace), fixed_per_logodds_(kOneStep / logodds_per_step) {}
 
   IntegrationTally integrate(const DepthView& view, const StereoSensor& sensor,
                              RollingMap& map) override {

@@ -21,6 +21,7 @@ class InverseSensorModel {
     double importance_m = 0.2;  ///< k
     double p_min = 0.3;
     double p_max = 0.97;
+    friend bool operator==(const Options&, const Options&) = default;
   };
   /// Behind the reading by more than this many sigma there is no evidence.
   static constexpr double kBandSigma = 3.0;
@@ -31,6 +32,8 @@ class InverseSensorModel {
 
   /// REQUIRES: importance_m > 0, 0 < p_min < 0.5 < p_max < 1.
   explicit InverseSensorModel(const Options& options);
+
+  [[nodiscard]] const Options& options() const { return options_; }
 
   /// Log-odds of a cell d metres behind (positive) or in front of (negative) a reading of deviation
   /// sigma [m].

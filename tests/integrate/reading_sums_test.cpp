@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/integrate/reading_sums.hpp"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include "support/synthetic.hpp"
+#include "swiftlet/condition/conditioner.hpp"
+#include "swiftlet/integrate/integrator.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// All blocks after a few frames of random relief.
+std::vector<VoxelBlock> mapped(std::uint64_t seed) {
+  test::Random random(seed);
+  auto map =
+      RollingMap::create({.voxel_m = 0.1, .size_m = {8, 8, 8}, .trigger_m = {1e3, 1e3, 1e3}});
+  map->recentre(Eigen::Vector3d::Zero(), nullptr);
+  const auto integrator = *make_integrator({.integrator = "projective"});
+  auto conditioner = Conditioner::create({.downsample = 1});
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    const Frame frame = test::random_frame(random, test::small_camera(163, 121));
+    const ConditionedDepth& depth = conditioner->clean(frame.depth);
+    const StereoSensor sensor(frame.intrinsics, {}, map->voxel_m(), 1);
+    integrator->integrate({depth, frame.intrinsics, frame.T_world_camera, i}, sensor, *map);
+  }
+  std::vector<VoxelBlock> blocks;
+  map->for_each_known_block(
+      [&](const BlockIndex&, const VoxelBlock& block) { blocks.push_back(block); });
+  return blocks;
+}
+
+TEST(ReadingSums, give_the_same_map_bits_on_every_instruction_set_of_this_machine) {
+  const std::vector<VoxelBlock> widest = mapped(3);
+  ASSERT_GT(widest.size(), 50U);
+  const std::int64_t all = hwy::SupportedTargets();
+  int targets = 0;
+  for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
+    const std::int64_t target = rest & -rest;
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(target);
+    EXPECT_EQ(mapped(3), widest) << hwy::TargetName(target);
+    testing::Test::RecordProperty("target" + std::to_string(targets), hwy::TargetName(target));
+    ++targets;
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(all);
+  EXPECT_GE(targets, 1);
+}
+
+}  // namespace
+}  // namespace swiftlet
