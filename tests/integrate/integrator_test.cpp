@@ -201,8 +201,7 @@ TEST(EvidenceSums, round_without_bias) {
       EvidenceSums sums;
       sums.begin(map.window());
       for (int cell = 0; cell < kBlockVoxels; ++cell) {
-        sums.add(voxel_at({0, 0, 0}, cell),
-                 static_cast<std::int32_t>(fraction * kOneStep));
+        sums.add(voxel_at({0, 0, 0}, cell), static_cast<std::int32_t>(fraction * kOneStep));
       }
       sums.apply(frame, map);
       for (const LogOdds cell : map.find({0, 0, 0})->cells) total += cell - kUnknownCell;
