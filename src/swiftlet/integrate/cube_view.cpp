@@ -22,23 +22,13 @@ CubeView::CubeView(const DepthView& view, double voxel_m)
   fy_ = static_cast<float>(k.fy() / n);
   cx_ = static_cast<float>((k.cx() - shift) / n);
   cy_ = static_cast<float>((k.cy() - shift) / n);
-  per_fx_ = static_cast<float>(n / k.fx());
-  per_fy_ = static_cast<float>(n / k.fy());
 
   const Eigen::Matrix3d R = view.T_world_camera.rotation().toRotationMatrix();
-  const float half = 0.5F * voxel_m_;
   for (int i = 0; i < 3; ++i) {
     camera_m_[i] = view.T_world_camera.translation()[i];
     for (int j = 0; j < 3; ++j) camera_axis_[i][j] = static_cast<float>(R(j, i));
     const Float3& a = camera_axis_[i];
     half_extent_[i] = std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]);
-  }
-  direction_at_origin_ = direction(0.0F, 0.0F);
-  const Float3& optical = camera_axis_[2];
-  for (int i = 0; i < 3; ++i) {
-    half_axis_[i] = half * std::abs(optical[i]);
-    // Depth over a face is uniform along its two edges: variance (a_j^2 + a_k^2) c^2 / 12.
-    spread_[i] = 6.0F * (1.0F - optical[i] * optical[i]) * half * half / 3.0F;
   }
 }
 

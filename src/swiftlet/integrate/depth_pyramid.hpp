@@ -8,17 +8,26 @@
 #include <vector>
 
 #include "swiftlet/base/image.hpp"
+#include "swiftlet/base/worker_team.hpp"
 
 namespace swiftlet {
 
-/// What a rectangle of a depth image holds, in device units.
-struct DepthRange {
-  std::uint16_t nearest;   ///< smallest reading; 0xffff if there is none
-  std::uint16_t farthest;  ///< largest reading; 0 if there is none
-  std::uint16_t smallest;  ///< smallest value, missing readings (0) counted too
+/// What a square of a depth image holds, in device units.
+struct DepthTile {
+  std::uint16_t nearest = 0xffff;  ///< smallest reading; 0xffff if there is none
+  std::uint16_t farthest = 0;      ///< largest reading; 0 if there is none
+  float valid = 0.0F;              ///< share of its pixels that have a reading
 
   [[nodiscard]] bool has_readings() const { return farthest != 0; }
-  [[nodiscard]] bool is_complete() const { return smallest != 0; }
+};
+
+/// What a rectangle of a depth image holds, in device units.
+struct DepthRange {
+  std::uint16_t nearest = 0xffff;
+  std::uint16_t farthest = 0;
+  bool is_complete = true;  ///< no pixel without a reading
+
+  [[nodiscard]] bool has_readings() const { return farthest != 0; }
 };
 
 /// Pixels [u0, u1] x [v0, v1], both inside.
@@ -30,31 +39,46 @@ struct PixelRect {
 /// pixels, of 8 x 8 and so on.
 class DepthPyramid {
  public:
+  static constexpr int kTileShift = 2;  ///< tiles of level 0 are 4 pixels wide
+  static constexpr int kTile = 1 << kTileShift;
+
+  struct Level {
+    int width, height;  // tiles
+    std::size_t first;  // in tiles()
+  };
+
   /// Allocates only while images grow.
-  void build(const Image<std::uint16_t>& raw);
+  void build(const Image<std::uint16_t>& raw, WorkerTeam& team);
 
   /// The range of a rectangle or of a little more: it is rounded outwards to whole tiles.
   /// REQUIRES: the rectangle lies in the image and is not empty.
   [[nodiscard]] DepthRange range_of(const PixelRect& rect) const;
   /// Of the whole image.
-  [[nodiscard]] DepthRange range() const { return tiles_[levels_.back().first]; }
+  [[nodiscard]] const DepthTile& whole() const { return tiles_[levels_.back().first]; }
+  /// Pixels with a reading.
+  [[nodiscard]] std::size_t readings() const { return readings_; }
+
+  [[nodiscard]] const Level& level(int index) const {
+    return levels_[static_cast<std::size_t>(index)];
+  }
+  [[nodiscard]] const DepthTile& tile(const Level& level, int x, int y) const {
+    return tiles_[level.first +
+                  static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
+                  static_cast<std::size_t>(x)];
+  }
 
   [[nodiscard]] std::size_t memory_bytes() const {
-    return tiles_.capacity() * sizeof(DepthRange) + levels_.capacity() * sizeof(Level);
+    return tiles_.capacity() * sizeof(DepthTile) + levels_.capacity() * sizeof(Level);
   }
 
  private:
-  static constexpr int kTileShift = 2;  // tiles of level 0 are 4 pixels wide
+  void lay_out(int width, int height);
+  void merge(const Level& from, const Level& to, int tile_shift);
 
-  struct Level {
-    int width, height;  // tiles
-    std::size_t first;  // in tiles_
-  };
-  void build_tiles(const Image<std::uint16_t>& raw);
-  void merge_tiles(const Level& from, const Level& to);
-
+  int width_ = 0, height_ = 0;
+  std::size_t readings_ = 0;
   std::vector<Level> levels_;
-  std::vector<DepthRange> tiles_;
+  std::vector<DepthTile> tiles_;
 };
 
 }  // namespace swiftlet

@@ -3,19 +3,57 @@
 
 #include "swiftlet/integrate/evidence_table.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace swiftlet {
 namespace {
 
-constexpr double kRowDepth_m = 0.02;  // rows stand for at least this much depth
+constexpr double kRowDepth_m = 0.1;  // rows stand for at least this much depth
 constexpr std::size_t kRawValues = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
+constexpr double kNarrowest = 1.0 / 32;  // sigma / t of class 0
 
-std::int32_t quantised(double log_odds) {
-  return static_cast<std::int32_t>(std::lrint(log_odds * EvidenceTable::kOne));
+/// The model of one depth, at distances in units of sigma.
+class ModelCurve {
+ public:
+  ModelCurve(const InverseSensorModel& model, double sigma_m) {
+    for (int i = 0; i < kPoints; ++i)
+      log_odds_[static_cast<std::size_t>(i)] =
+          model.log_odds((i - kPeak) * sigma_m / kPerSigma, sigma_m);
+    // At the end of the band the model jumps to 0.
+    log_odds_.back() = 0.0;
+  }
+  [[nodiscard]] double peak() const { return log_odds_[kPeak]; }
+  [[nodiscard]] double at(double d_sigma) const {
+    const double place = std::clamp(d_sigma * kPerSigma + kPeak, 0.0, double{kPoints - 1});
+    const auto i = std::min(static_cast<std::size_t>(place), std::size_t{kPoints - 2});
+    const double part = place - static_cast<double>(i);
+    return (1.0 - part) * log_odds_[i] + part * log_odds_[i + 1];
+  }
+
+ private:
+  static constexpr int kPerSigma = 32, kPeak = 8 * kPerSigma;  // 8 sigma in front, 3 behind
+  static constexpr int kPoints = kPeak + 3 * kPerSigma + 2;
+  std::array<double, kPoints> log_odds_;
+};
+
+/// The normal distribution, as the middles of 24 equally likely parts.
+const std::array<double, 24>& normal_draws() {
+  static const std::array<double, 24> kDraws = [] {
+    std::array<double, 24> draws{};
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+      const double wanted = (static_cast<double>(i) + 0.5) / static_cast<double>(draws.size());
+      double low = -8.0, high = 8.0;
+      for (int step = 0; step < 50; ++step) {
+        const double middle = 0.5 * (low + high);
+        (0.5 * std::erfc(-middle / std::sqrt(2.0)) < wanted ? low : high) = middle;
+      }
+      draws[i] = low;
+    }
+    return draws;
+  }();
+  return kDraws;
 }
 
 }  // namespace
@@ -23,57 +61,44 @@ std::int32_t quantised(double log_odds) {
 void EvidenceTable::prepare(const StereoSensor& sensor, float unit_m, std::uint16_t farthest) {
   const Key key{unit_m, sensor.noise().sigma_m(1.0), sensor.model().options()};
   if (!(key == key_)) start_over(key, sensor.model());
-  while (rows_.size() <= static_cast<std::size_t>(farthest >> shift_)) {
-    rows_.emplace_back();
-    fill_row(sensor, rows_.size() - 1);
-  }
+  const std::size_t rows = static_cast<std::size_t>(farthest >> shift_) + 1;
+  while (rise_.size() < rows * kRowLength) add_row(sensor);
 }
 
 void EvidenceTable::start_over(const Key& key, const InverseSensorModel& model) {
   key_ = key;
   unit_m_ = key.unit_m;
   sigma_per_z2_ = static_cast<float>(key.sigma_per_z2);
-  free_ = quantised(model.free_log_odds());
-  // p reaches p_max at the reading while k / (sigma sqrt(2 pi)) >= p_max - 0.5.
-  const InverseSensorModel::Options& o = key.model;
-  const double sigma_m = o.importance_m / (std::sqrt(2.0 * std::numbers::pi) * (o.p_max - 0.5));
-  sure_z_m_ = static_cast<float>(std::sqrt(sigma_m / key.sigma_per_z2));
-  at_reading_ = quantised(model.log_odds(0.0, 0.5 * sigma_m));
+  free_ = static_cast<float>(model.free_log_odds());
   for (shift_ = 0; unit_m_ * static_cast<float>(1 << shift_) < kRowDepth_m && shift_ < 12;)
     ++shift_;
-  rows_.clear();
-  rows_.reserve((kRawValues >> shift_) + 1);
-  columns_per_m_.assign((kRawValues >> shift_) + 1, 0.0F);
-}
-
-void EvidenceTable::fill_row(const StereoSensor& sensor, std::size_t row) {
-  const double middle = (static_cast<double>(row) + 0.5) * (1 << shift_);
-  const double sigma_m = sensor.noise().sigma_m(double{unit_m_} * middle);
-  rows_[row].front() = free_;
-  rows_[row].back() = 0;
-  columns_per_m_[row] = static_cast<float>(kPerSigma / sigma_m);
-  for (std::size_t column = 0; column < kColumns; ++column) {
-    const double d_sigma = (static_cast<double>(column) + 0.5) / kPerSigma - kInFrontSigma;
-    rows_[row][column + 1] = quantised(sensor.model().log_odds(d_sigma * sigma_m, sigma_m));
+  const std::size_t rows = (kRawValues >> shift_) + 1;
+  for (std::vector<float>* part : {&rise_, &fall_}) {
+    part->clear();
+    part->reserve(rows * kRowLength);
   }
-  // A cell that holds the reading is at distance 0, which is in front.
-  constexpr auto kAtReading = static_cast<std::size_t>(kPerSigma * kInFrontSigma);
-  rows_[row][kAtReading + 1] = quantised(sensor.model().log_odds(0.0, sigma_m));
 }
 
-void EvidenceTable::describe(ReadingQuery& query) const {
-  query.unit = unit_m_;
-  query.three_sigma_per_z2 = static_cast<float>(InverseSensorModel::kBandSigma) * sigma_per_z2_;
-  query.columns_per_m = columns_per_m_.data();
-  query.log_odds = rows_.front().data();
-  query.row_shift = shift_;
-  query.row_length = static_cast<std::int32_t>(std::tuple_size_v<Row>);
-  query.clear_per_reach = kInFrontSigma / static_cast<float>(InverseSensorModel::kBandSigma);
-  query.free = free_;
-  query.at_reading = at_reading_;
-  query.sure_z = sure_z_m_;
-  query.zero_column = kPerSigma * kInFrontSigma + 1.0F;
-  query.last_column = static_cast<float>(kColumns + 1);
+void EvidenceTable::add_row(const StereoSensor& sensor) {
+  const auto row = static_cast<double>(rise_.size() / kRowLength);
+  const double sigma_m = sensor.noise().sigma_m(double{unit_m_} * (row + 0.5) * (1 << shift_));
+  const ModelCurve curve(sensor.model(), sigma_m);
+  for (int c = 0; c < kClasses; ++c) {
+    const double narrow = std::max(kNarrowest, static_cast<double>(c) / (kClasses - 1));
+    const double scatter = std::sqrt(1.0 - std::min(1.0, narrow * narrow));
+    for (int column = 0; column < kColumns; ++column) {
+      const double d = static_cast<double>(column - kZero) / double{kPerDeviation};
+      double rise = 0.0, fall = 0.0;
+      for (const double draw : normal_draws()) {
+        const double d_sigma = (d + scatter * draw) / narrow;
+        rise += curve.at(std::min(d_sigma, 0.0));
+        fall += curve.at(std::max(d_sigma, 0.0)) - curve.peak();
+      }
+      const double draws = static_cast<double>(normal_draws().size());
+      rise_.push_back(static_cast<float>(rise / draws));
+      fall_.push_back(static_cast<float>(fall / draws));
+    }
+  }
 }
 
 }  // namespace swiftlet

@@ -4,39 +4,47 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "swiftlet/integrate/depth_pyramid.hpp"
-#include "swiftlet/integrate/reading_sums.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 
 namespace swiftlet {
 
-/// The inverse sensor model, tabulated: one row for readings of about the same depth (and so of the
-/// same sigma), one column for the distance of a cell from the reading in units of sigma.
+/// The inverse sensor model, tabulated: its mean over readings that scatter.
 ///
-/// Values are log-odds * 2^12 as integers: sums of them do not depend on their order. Rows are
-/// filled when a frame first reaches their depth.
+/// A cell counts as a slice of depth (StereoSensor), so what a reading says about it is a sum of
+/// two parts: one that rises from "free" to the model's peak as the slice's far side comes to the
+/// reading, and one that takes it back as its near side leaves the reading behind:
+///   L(gap) = rise(z_far - z_reading) + fall(z_near - z_reading)
+///   rise(d) = L(min(d, 0)), fall(d) = L(max(d, 0)) - L(0)
+/// Readings of mean m and scatter s, each of deviation sigma, say the mean of that over a normal
+/// distribution, a function of d / t with t^2 = sigma^2 + s^2, of sigma / t, and of the depth m.
+///
+/// Row: depth of the readings; class: sigma / t from 0 to 1; column: d / t; then rise and fall.
 class EvidenceTable {
  public:
-  static constexpr double kOne = 4096.0;
-  static constexpr float kInFrontSigma = 5.0F;  ///< L is within 1e-4 of free_log_odds() here
-  static constexpr float kPerSigma = 32.0F;
-  static constexpr int kColumns = 256;  ///< kInFrontSigma in front to kBandSigma behind
+  static constexpr int kClasses = 8;
+  static constexpr float kPerDeviation = 12.0F;  ///< columns
+  static constexpr int kZero = 62;               ///< column of d = 0
+  static constexpr int kColumns = 125;           ///< the first and last stand for all beyond
+  /// L is within 1e-4 of free_log_odds() so many sigma in front of a reading.
+  static constexpr float kInFrontSigma = 5.0F;
 
-  /// Readers of the readings 1 .. farthest of a frame. Allocates on the first call and when the
-  /// sensor has changed.
+  /// Ready for readings 1 .. farthest of a frame. Allocates on the first call and when the sensor
+  /// has changed.
   void prepare(const StereoSensor& sensor, float unit_m, std::uint16_t farthest);
 
   /// Depth [m] of a reading.
   [[nodiscard]] float depth_m(std::uint16_t raw) const { return unit_m_ * static_cast<float>(raw); }
+  /// Standard deviation [m] of a reading at this depth [m].
+  [[nodiscard]] float sigma_m(float z_m) const { return sigma_per_z2_ * z_m * z_m; }
   /// Behind this depth [m] a reading says nothing: z_t + 3 sigma. Grows with raw.
   [[nodiscard]] float reach_m(std::uint16_t raw) const {
     const float z = depth_m(raw);
-    return z + static_cast<float>(InverseSensorModel::kBandSigma) * sigma_per_z2_ * z * z;
+    return z + static_cast<float>(InverseSensorModel::kBandSigma) * sigma_m(z);
   }
   /// Up to this depth [m] every reading of a range says "free" and nothing else. Concave in the
   /// depth of the reading, so its smallest value is at an end of the range.
@@ -44,38 +52,39 @@ class EvidenceTable {
     return std::min(clear_m(range.nearest), clear_m(range.farthest));
   }
 
-  /// The part of a query that describes readings.
-  void describe(ReadingQuery& query) const;
-  [[nodiscard]] std::int32_t free() const { return free_; }
+  /// Log-odds [((raw >> row_shift()) * kClasses + class) * kColumns + column].
+  [[nodiscard]] const float* rise() const { return rise_.data(); }
+  [[nodiscard]] const float* fall() const { return fall_.data(); }
+  [[nodiscard]] int row_shift() const { return shift_; }
+  [[nodiscard]] float sigma_per_z2() const { return sigma_per_z2_; }
+  [[nodiscard]] float unit_m() const { return unit_m_; }
+  [[nodiscard]] float free_log_odds() const { return free_; }
   [[nodiscard]] std::size_t memory_bytes() const {
-    return rows_.capacity() * (sizeof(Row) + sizeof(float));
+    return (rise_.capacity() + fall_.capacity()) * sizeof(float);
   }
 
  private:
-  /// Column 0 is all that lies in front of the tabulated ones, the last all that lies behind.
-  using Row = std::array<std::int32_t, kColumns + 2>;
   struct Key {
     float unit_m = 0.0F;
     double sigma_per_z2 = 0.0;
     InverseSensorModel::Options model;
     friend bool operator==(const Key&, const Key&) = default;
   };
+  static constexpr std::size_t kRowLength = std::size_t{kClasses} * kColumns;
+
   [[nodiscard]] float clear_m(std::uint16_t raw) const {
     const float z = depth_m(raw);
-    return z - kInFrontSigma * sigma_per_z2_ * z * z;
+    return z - kInFrontSigma * sigma_m(z);
   }
   void start_over(const Key& key, const InverseSensorModel& model);
-  void fill_row(const StereoSensor& sensor, std::size_t row);
+  void add_row(const StereoSensor& sensor);
 
   Key key_;
   float unit_m_ = 0.0F;
   float sigma_per_z2_ = 0.0F;
-  int shift_ = 0;  // raw >> shift_ is the row
-  std::int32_t free_ = 0;
-  std::int32_t at_reading_ = 0;  // the upper limit of the model
-  float sure_z_m_ = 0.0F;        // up to here a reading reaches it
-  std::vector<Row> rows_;
-  std::vector<float> columns_per_m_;  // of each row: kPerSigma / sigma
+  float free_ = 0.0F;
+  int shift_ = 0;
+  std::vector<float> rise_, fall_;
 };
 
 }  // namespace swiftlet

@@ -23,6 +23,8 @@ struct IntegrateOptions {
   std::string integrator = "rays";
   std::string ray_method = "voxel_traversal";
   double logodds_per_step = 0.04;  ///< one step of a cell's byte, so +-127 steps are +-5.08
+  int threads = 1;                 ///< of the projective integrator; same map bits for any number
+  double max_frame_ms = 0.0;  ///< far blocks wait for the next frame once this is over; 0: never
 };
 
 /// One conditioned frame.
@@ -35,9 +37,10 @@ struct DepthView {
 
 /// What one frame did to the map.
 struct IntegrationTally {
-  std::size_t readings = 0;  ///< valid pixels that were fused
-  std::size_t cells = 0;     ///< cells that received evidence; surely free ones may be left out
-  std::size_t blocks = 0;    ///< blocks that hold them
+  std::size_t readings = 0;     ///< valid pixels that were fused
+  std::size_t cells = 0;        ///< cells that received evidence; surely free ones may be left out
+  std::size_t blocks = 0;       ///< blocks that hold them
+  std::size_t blocks_left = 0;  ///< in view, but left for the next frame by max_frame_ms
 };
 
 /// Turns the evidence of a whole frame into belief.

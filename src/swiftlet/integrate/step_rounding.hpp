@@ -16,6 +16,8 @@ namespace swiftlet {
 using FixedSteps = std::int32_t;
 inline constexpr int kStepFractionBits = 20;
 inline constexpr double kOneStep = 1 << kStepFractionBits;
+/// Evidence that saturates any cell.
+inline constexpr FixedSteps kMostSteps = 255 << kStepFractionBits;
 
 /// Seeds the rounding of one block in one frame.
 [[nodiscard]] constexpr std::uint64_t rounding_seed(const BlockIndex& block,

@@ -18,8 +18,8 @@ void check_room(double voxel_m) {
   auto source = open_source("7scenes:" + folder.string());
   ASSERT_TRUE(source) << source.error().text();
   std::unique_ptr<test::AgreementCheck> check;
-  for (int i = 0; i < 5; ++i) {
-    for (int skipped = 0; skipped < 30; ++skipped) ASSERT_TRUE((*source)->next());
+  for (int i = 0; i < 40; ++i) {
+    for (int skipped = 0; skipped < 2; ++skipped) ASSERT_TRUE((*source)->next());
     const auto frame = (*source)->next();
     ASSERT_TRUE(frame && *frame);
     const Eigen::Vector3d middle_m = (*frame)->T_world_camera.translation();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/reading_sums.hpp"
+// The projective integrator's promise: the same map bits on any machine and any number of threads.
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
@@ -14,12 +14,12 @@ namespace swiftlet {
 namespace {
 
 /// All blocks after a few frames of random relief.
-std::vector<VoxelBlock> mapped(std::uint64_t seed) {
+std::vector<VoxelBlock> mapped(std::uint64_t seed, int threads = 1) {
   test::Random random(seed);
   auto map =
       RollingMap::create({.voxel_m = 0.1, .size_m = {8, 8, 8}, .trigger_m = {1e3, 1e3, 1e3}});
   map->recentre(Eigen::Vector3d::Zero(), nullptr);
-  const auto integrator = *make_integrator({.integrator = "projective"});
+  const auto integrator = *make_integrator({.integrator = "projective", .threads = threads});
   auto conditioner = Conditioner::create({.downsample = 1});
   for (std::uint64_t i = 0; i < 4; ++i) {
     const Frame frame = test::random_frame(random, test::small_camera(163, 121));
@@ -33,7 +33,7 @@ std::vector<VoxelBlock> mapped(std::uint64_t seed) {
   return blocks;
 }
 
-TEST(ReadingSums, give_the_same_map_bits_on_every_instruction_set_of_this_machine) {
+TEST(Projective, gives_the_same_map_bits_on_every_instruction_set_of_this_machine) {
   const std::vector<VoxelBlock> widest = mapped(3);
   ASSERT_GT(widest.size(), 50U);
   const std::int64_t all = hwy::SupportedTargets();
@@ -49,6 +49,35 @@ TEST(ReadingSums, give_the_same_map_bits_on_every_instruction_set_of_this_machin
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(all);
   EXPECT_GE(targets, 1);
+}
+
+TEST(Projective, gives_the_same_map_bits_on_any_number_of_threads) {
+  const std::vector<VoxelBlock> alone = mapped(5);
+  for (const int threads : {2, 3, 4}) EXPECT_EQ(mapped(5, threads), alone) << threads;
+}
+
+// A limit that is over before the first cube: nothing is fused, and what is left is counted.
+TEST(Projective, counts_the_blocks_that_a_deadline_leaves) {
+  test::Random random;
+  const Frame frame = test::random_frame(random, test::small_camera());
+  auto conditioner = Conditioner::create({.downsample = 1});
+  const ConditionedDepth& depth = conditioner->clean(frame.depth);
+  const StereoSensor sensor(frame.intrinsics, {}, 0.1, 1);
+  const auto blocks_of = [&](double max_frame_ms) {
+    auto map = RollingMap::create({.voxel_m = 0.1, .size_m = {8, 8, 8}});
+    map->recentre(Eigen::Vector3d::Zero(), nullptr);
+    const auto integrator =
+        *make_integrator({.integrator = "projective", .max_frame_ms = max_frame_ms});
+    const auto tally =
+        integrator->integrate({depth, frame.intrinsics, frame.T_world_camera, 0}, sensor, *map);
+    return std::pair(tally.blocks, tally.blocks_left);
+  };
+  const auto [all, none_left] = blocks_of(0.0);
+  EXPECT_GT(all, 10U);
+  EXPECT_EQ(none_left, 0U);
+  const auto [none, left] = blocks_of(1e-6);
+  EXPECT_EQ(none, 0U);
+  EXPECT_GE(left, all);
 }
 
 }  // namespace

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/integrate/block_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace swiftlet {
+namespace {
+
+/// A cell's image is about so many tiles wide.
+constexpr float kTilesAcross = 6.0F;
+/// Seen at a slant it is larger than a square of that width, up to 1.7 times.
+constexpr float kSamplesPerTile = 1.3F, kFewest = 4.0F;
+/// From so many cells on, all cells of a block look alike.
+constexpr float kFarCells = 24.0F;
+
+/// Whether the cells of a cube are all surely free: more free evidence changes none of them.
+bool is_surely_free(const VoxelBlock* block, int edge, int offset) {
+  if (block == nullptr) return false;
+  std::uint64_t any = 0;
+  for (int z = 0; z < edge; ++z) {
+    for (int y = 0; y < edge; ++y) {
+      const auto first = static_cast<std::size_t>(offset + kBlockEdge * (y + kBlockEdge * z));
+      std::uint64_t row = 0;
+      std::memcpy(&row, &block->cells[first], static_cast<std::size_t>(edge));
+      any |= row;
+    }
+  }
+  static_assert(kFreeCell == 0);
+  return any == 0;
+}
+
+}  // namespace
+
+struct FrameEvidence::Work {
+  const VoxelBlock* known;
+  CellCube block;
+  BlockEvidence& evidence;
+  bool has_free = false;
+};
+
+FrameEvidence::FrameEvidence(const CubeView& view, const DepthPyramid& pyramid,
+                             const ReadingSummaries& summaries, const EvidenceTable& table,
+                             const FrameInView& frame, std::uint64_t frame_number)
+    : view_(view),
+      pyramid_(pyramid),
+      summaries_(summaries),
+      table_(table),
+      frame_(frame),
+      frame_number_(frame_number) {
+  const Float3& a = view.optical_axis();
+  slice_inset_m_ = 0.5F * frame.voxel_m * (std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]) - 1.0F);
+}
+
+Verdict FrameEvidence::judge(const CubeInView& cube) const {
+  if (cube.z_near() < 0.5F * frame_.voxel_m)
+    return view_.meets_frustum(cube) ? Verdict::kMixed : Verdict::kNothing;
+  const Footprint f = view_.footprint(cube);
+  if (!view_.meets_image(f)) return Verdict::kNothing;
+  const DepthRange range = pyramid_.range_of(view_.pixels(f));
+  if (!range.has_readings()) return Verdict::kNothing;
+  if (cube.z_near() + slice_inset_m_ > table_.reach_m(range.farthest)) return Verdict::kNothing;
+  if (cube.z_far() - slice_inset_m_ >= table_.clear_m(range)) return Verdict::kMixed;
+  const bool is_whole =
+      range.is_complete && view_.is_inside_image(f) && cube.z_near() > kNearCells * frame_.voxel_m;
+  return is_whole ? Verdict::kFree : Verdict::kSeen;
+}
+
+CellCube FrameEvidence::cells_of(const CubeInView& cube, int edge, int offset) const {
+  const float to_first = 0.5F * static_cast<float>(1 - edge) * frame_.voxel_m;
+  CellCube cells{cube.p_world, cube.p_camera, edge, offset};
+  for (int i = 0; i < 3; ++i) {
+    cells.p_world[i] += to_first;
+    cells.p_camera[i] +=
+        to_first * (frame_.world_axis[0][i] + frame_.world_axis[1][i] + frame_.world_axis[2][i]);
+  }
+  return cells;
+}
+
+bool FrameEvidence::collect(const BlockIndex& index, Verdict verdict, const VoxelBlock* known,
+                            BlockEvidence& evidence) const {
+  if (verdict != Verdict::kMixed && is_surely_free(known, kBlockEdge, 0)) return false;
+  evidence.steps.fill(0);
+  evidence.passed.count = evidence.sampled.count = 0;
+  const CubeInView cube = view_.cube(first_voxel(index), kBlockEdge);
+  Work work{known, cells_of(cube, kBlockEdge, 0), evidence};
+  descend(cube, kBlockEdge, 0, verdict, work);
+  look(cube, work);
+  return work.has_free || std::ranges::any_of(evidence.steps, [](FixedSteps e) { return e != 0; });
+}
+
+/// Lets the listed cells of a cube look at their readings.
+void FrameEvidence::look(const CubeInView& cube, Work& work) const {
+  CellList &passed = work.evidence.passed, &sampled = work.evidence.sampled;
+  if (passed.count + sampled.count == 0) return;
+  // Tiles of a fraction of a cell's width, and as many samples as there are such tiles.
+  const float width_px = frame_.fx * frame_.voxel_m / std::max(cube.p_camera[2], frame_.voxel_m);
+  const int shift = std::clamp(static_cast<int>(std::lround(std::log2(width_px / kTilesAcross))),
+                               ReadingSummaries::kFinestShift, ReadingSummaries::kCoarsestShift);
+  const float across = width_px / static_cast<float>(1 << shift);
+  const bool is_near = cube.z_near() < kNearCells * frame_.voxel_m;
+  const float count =
+      is_near ? float{FaceSamples::kMost}
+              : std::clamp(kSamplesPerTile * across * across, kFewest, float{FaceSamples::kMost});
+  FaceSamples samples;
+  samples.spread(static_cast<int>(count), cube.p_world, frame_.voxel_m, frame_.world_axis,
+                 frame_number_);
+  const ReadingTiles tiles = summaries_.tiles(shift);
+  FixedSteps* steps = work.evidence.steps.data();
+  fill_passed(frame_, work.block, passed, samples, tiles, steps);
+  fill_sampled(frame_, work.block, sampled, samples, tiles, steps);
+  passed.count = sampled.count = 0;
+}
+
+void FrameEvidence::descend(const CubeInView& cube, int edge, int offset, Verdict verdict,
+                            Work& work) const {
+  if (verdict == Verdict::kNothing) return;
+  if (verdict != Verdict::kMixed && is_surely_free(work.known, edge, offset)) return;
+  if (verdict == Verdict::kFree && edge >= 4) {
+    fill_free(frame_, cells_of(cube, edge, offset), work.evidence.steps.data());
+    work.has_free = true;
+    return;
+  }
+  if (edge == 1) {
+    (verdict == Verdict::kMixed ? work.evidence.sampled : work.evidence.passed).add(offset);
+    return;
+  }
+  const int half = edge / 2;
+  for (int i = 0; i < 8; ++i) {
+    const int x = i & 1, y = (i >> 1) & 1, z = i >> 2;
+    const CubeInView part = view_.child(cube, half, x, y, z);
+    // What passes a cube passes its parts; single cells are not worth the question.
+    const bool is_known = half == 1 || (verdict != Verdict::kMixed && half < 4);
+    descend(part, half, offset + half * (x + kBlockEdge * (y + kBlockEdge * z)),
+            is_known ? verdict : judge(part), work);
+    // Near the camera, each part of a block needs samples of its own.
+    if (edge == kBlockEdge && cube.p_camera[2] < kFarCells * frame_.voxel_m) look(part, work);
+  }
+}
+
+}  // namespace swiftlet

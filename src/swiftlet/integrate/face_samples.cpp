@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/integrate/face_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swiftlet {
+namespace {
+
+constexpr float kGoldenRatio = 0.61803399F;
+
+float fraction(float v) { return v - std::floor(v); }
+
+}  // namespace
+
+void FaceSamples::spread(int count, const Float3& p_world, float voxel_m,
+                         const std::array<Float3, 3>& world_axis, std::uint64_t frame_number) {
+  // A face's share of the image is that of its distance: the area of one is |n q| / q_z^3.
+  Float3 distance;
+  for (int i = 0; i < 3; ++i)
+    distance[i] = std::max(0.1F * voxel_m, std::abs(p_world[i]) - 0.5F * voxel_m);
+  const float per_all =
+      static_cast<float>(std::min(count, kMost)) / (distance[0] + distance[1] + distance[2]);
+  const float shift = fraction(static_cast<float>(frame_number % 1024U) * kGoldenRatio);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto n = static_cast<std::size_t>(std::max(1.0F, distance[i] * per_all + 0.5F));
+    first_[i + 1] = first_[i] + n;
+    const Float3 &a = world_axis[(i + 1) % 3], &b = world_axis[(i + 2) % 3];
+    // A Fibonacci lattice: even for any number of points.
+    for (std::size_t k = 0; k < n; ++k) {
+      const float rank = static_cast<float>(k) + 0.5F;
+      const float x = (fraction(rank / static_cast<float>(n) + shift) - 0.5F) * voxel_m;
+      const float y = (fraction(rank * kGoldenRatio + shift) - 0.5F) * voxel_m;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        places_[first_[i] + k][axis] = x * a[axis] + y * b[axis];
+    }
+  }
+}
+
+}  // namespace swiftlet

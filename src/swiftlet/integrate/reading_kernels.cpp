@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/integrate/reading_kernels.hpp"
+
+// Highway compiles this file once for every instruction set: SSE2 to AVX-512, NEON.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "swiftlet/integrate/reading_kernels.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace swiftlet {
+namespace HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::CappedTag<float, 16>;
+using Ints = hn::RebindToSigned<Floats>;
+using Raws = hn::Rebind<std::uint16_t, Floats>;
+using FloatLanes = hn::Vec<Floats>;
+
+using IntLanes = hn::Vec<Ints>;
+
+/// Four parts of each tile: readings, their mean depth and variance, and what they say by
+/// themselves.
+struct Parts {
+  FloatLanes count[4], mean[4], variance[4];
+  FloatLanes voice[4], per_deviation[4];  // mean [m] and 1 / deviation
+};
+
+/// Scatter that noise alone makes: in deviations of a reading, of all but odd tiles.
+constexpr float kNoiseScatter = 1.6F;
+
+/// A number in [0, 1) for each lane.
+HWY_INLINE FloatLanes draw(std::uint32_t seed, int x) {
+  constexpr Floats f;
+  constexpr Ints i;
+  const IntLanes lane = hn::Iota(i, x);
+  IntLanes h = hn::Mul(hn::Add(lane, hn::Set(i, static_cast<std::int32_t>(seed))),
+                       hn::Set(i, static_cast<std::int32_t>(0x9E3779B1U)));
+  h = hn::Mul(hn::Xor(h, hn::ShiftRight<15>(h)),
+              hn::Set(i, static_cast<std::int32_t>(0x85EBCA77U)));
+  h = hn::And(hn::ShiftRight<7>(h), hn::Set(i, 0xffffff));
+  return hn::Mul(hn::ConvertTo(f, h), hn::Set(f, 1.0F / 16777216.0F));
+}
+
+HWY_INLINE void finish(const Parts& p, int x, const SummaryRow& row) {
+  constexpr Floats f;
+  constexpr Ints i;
+  const FloatLanes one = hn::Set(f, 1.0F);
+  const FloatLanes count =
+      hn::Add(hn::Add(p.count[0], p.count[1]), hn::Add(p.count[2], p.count[3]));
+  const FloatLanes per_count = hn::Div(one, hn::Max(count, one));
+  FloatLanes sum = hn::Mul(p.count[0], p.mean[0]);
+  for (int k = 1; k < 4; ++k) sum = hn::Add(sum, hn::Mul(p.count[k], p.mean[k]));
+  const FloatLanes mean = hn::Mul(sum, per_count);
+  FloatLanes scatter = hn::Zero(f);
+  for (int k = 0; k < 4; ++k) {
+    const FloatLanes off = hn::Sub(p.mean[k], mean);
+    scatter = hn::Add(scatter, hn::Mul(p.count[k], hn::Add(p.variance[k], hn::Mul(off, off))));
+  }
+  const FloatLanes variance = hn::Mul(scatter, per_count);
+  hn::StoreU(count, f, row.count + x);
+  hn::StoreU(mean, f, row.mean_m + x);
+  hn::StoreU(variance, f, row.variance_m2 + x);
+
+  const FloatLanes sigma = hn::Mul(hn::Mul(mean, mean), hn::Set(f, row.sigma_per_z2));
+  const FloatLanes sigma2 = hn::Mul(sigma, sigma);
+  const FloatLanes spread = hn::Sqrt(hn::Add(sigma2, variance));
+  const auto has_readings = hn::Gt(count, hn::Zero(f));
+  FloatLanes voice = mean;
+  FloatLanes per_deviation = hn::Div(one, hn::IfThenElse(has_readings, spread, one));
+  const FloatLanes most = hn::Max(hn::Mul(sigma2, hn::Set(f, kNoiseScatter * kNoiseScatter)),
+                                  hn::Set(f, row.most_scatter_m * row.most_scatter_m));
+  const auto is_edge = hn::Gt(variance, most);
+  if (!hn::AllFalse(f, is_edge)) {
+    FloatLanes left = hn::Mul(draw(row.seed, x), count);
+    FloatLanes drawn = p.voice[0], drawn_per_deviation = p.per_deviation[0];
+    for (int k = 1; k < 4; ++k) {
+      left = hn::Sub(left, p.count[k - 1]);
+      const auto is_later = hn::And(hn::Ge(left, hn::Zero(f)), hn::Gt(p.count[k], hn::Zero(f)));
+      drawn = hn::IfThenElse(is_later, p.voice[k], drawn);
+      drawn_per_deviation = hn::IfThenElse(is_later, p.per_deviation[k], drawn_per_deviation);
+    }
+    voice = hn::IfThenElse(is_edge, drawn, voice);
+    per_deviation = hn::IfThenElse(is_edge, drawn_per_deviation, per_deviation);
+  }
+  hn::StoreU(per_deviation, f, row.per_deviation + x);
+
+  // Tiles at the right edge have fewer columns in the image.
+  const auto width = static_cast<float>(1 << row.shift);
+  const FloatLanes first = hn::Mul(hn::Iota(f, static_cast<float>(x)), hn::Set(f, width));
+  const FloatLanes columns =
+      hn::Min(hn::Max(hn::Sub(hn::Set(f, static_cast<float>(row.image_width)), first), one),
+              hn::Set(f, width));
+  const FloatLanes pixels = hn::Mul(columns, hn::Set(f, static_cast<float>(row.pixel_rows)));
+  const FloatLanes share = hn::Div(hn::Mul(count, hn::Set(f, ReadingTiles::kAll)), pixels);
+  const FloatLanes raw = hn::Mul(voice, hn::Set(f, 1.0F / row.unit_m));
+  const auto low = hn::NearestInt(hn::Min(raw, hn::Set(f, 65535.0F)));
+  hn::StoreU(hn::Or(low, hn::ShiftLeft<16>(hn::NearestInt(share))), i, row.mean_and_share + x);
+}
+
+void pixels(const std::uint16_t* upper, const std::uint16_t* lower, const SummaryRow& row) {
+  constexpr Floats f;
+  constexpr Ints i;
+  constexpr Raws r;
+  const FloatLanes unit = hn::Set(f, row.unit_m);
+  for (int x = 0; x < row.tiles; x += static_cast<int>(hn::Lanes(f))) {
+    hn::Vec<Raws> raw[4];
+    hn::LoadInterleaved2(r, upper + 2 * x, raw[0], raw[1]);
+    hn::LoadInterleaved2(r, lower + 2 * x, raw[2], raw[3]);
+    Parts parts;
+    for (int k = 0; k < 4; ++k) {
+      parts.mean[k] = hn::Mul(hn::ConvertTo(f, hn::PromoteTo(i, raw[k])), unit);
+      parts.count[k] = hn::IfThenElseZero(hn::Gt(parts.mean[k], hn::Zero(f)), hn::Set(f, 1.0F));
+      parts.variance[k] = hn::Zero(f);
+      parts.voice[k] = parts.mean[k];
+      const FloatLanes sigma =
+          hn::Mul(hn::Mul(parts.mean[k], parts.mean[k]), hn::Set(f, row.sigma_per_z2));
+      parts.per_deviation[k] = hn::Div(hn::Set(f, 1.0F), hn::Max(sigma, hn::Set(f, 1e-9F)));
+    }
+    finish(parts, x, row);
+  }
+}
+
+HWY_INLINE void load_pairs(const float* from, FloatLanes& even, FloatLanes& odd) {
+  constexpr Floats f;
+  hn::LoadInterleaved2(f, from, even, odd);
+}
+
+HWY_INLINE void load_voices(const std::int32_t* from, float unit_m, FloatLanes* voice) {
+  constexpr Floats f;
+  constexpr Ints i;
+  IntLanes word[2];
+  hn::LoadInterleaved2(i, from, word[0], word[1]);
+  for (int k = 0; k < 2; ++k) {
+    const IntLanes raw = hn::And(word[k], hn::Set(i, 0xffff));
+    voice[k] = hn::Mul(hn::ConvertTo(f, raw), hn::Set(f, unit_m));
+  }
+}
+
+void merge(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row) {
+  constexpr Floats f;
+  for (int x = 0; x < row.tiles; x += static_cast<int>(hn::Lanes(f))) {
+    Parts parts;
+    load_pairs(upper.count + 2 * x, parts.count[0], parts.count[1]);
+    load_pairs(lower.count + 2 * x, parts.count[2], parts.count[3]);
+    load_pairs(upper.mean_m + 2 * x, parts.mean[0], parts.mean[1]);
+    load_pairs(lower.mean_m + 2 * x, parts.mean[2], parts.mean[3]);
+    load_pairs(upper.variance_m2 + 2 * x, parts.variance[0], parts.variance[1]);
+    load_pairs(lower.variance_m2 + 2 * x, parts.variance[2], parts.variance[3]);
+    load_pairs(upper.per_deviation + 2 * x, parts.per_deviation[0], parts.per_deviation[1]);
+    load_pairs(lower.per_deviation + 2 * x, parts.per_deviation[2], parts.per_deviation[3]);
+    load_voices(upper.mean_and_share + 2 * x, row.unit_m, parts.voice);
+    load_voices(lower.mean_and_share + 2 * x, row.unit_m, parts.voice + 2);
+    finish(parts, x, row);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace swiftlet
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swiftlet {
+
+HWY_EXPORT(pixels);
+HWY_EXPORT(merge);
+
+void summarise_pixels(const std::uint16_t* upper, const std::uint16_t* lower,
+                      const SummaryRow& row) {
+  HWY_DYNAMIC_DISPATCH(pixels)(upper, lower, row);
+}
+
+void merge_summaries(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row) {
+  HWY_DYNAMIC_DISPATCH(merge)(upper, lower, row);
+}
+
+}  // namespace swiftlet
+#endif
