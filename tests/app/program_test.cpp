@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/support/blocks_of.hpp"
 #include "app/support/run_program.hpp"
 #include "support/recordings.hpp"
 #include "swiftlet/app/command.hpp"
@@ -58,20 +59,6 @@ void expect_refusal(const Ended& ended, int exit_code, const std::string& what) 
   EXPECT_THAT(ended.err, HasSubstr("swiftlet: "));
   EXPECT_THAT(ended.err, HasSubstr(what));
   EXPECT_THAT(ended.out, IsEmpty());
-}
-
-std::map<BlockIndex, VoxelBlock> blocks_of(const std::filesystem::path& path) {
-  std::map<BlockIndex, VoxelBlock> blocks;
-  const auto map = load_map(path);
-  EXPECT_TRUE(map) << map.error().text();
-  if (!map) return blocks;
-  const auto read =
-      map->for_each_block([&](const BlockIndex& index, const VoxelBlock& block) -> Status {
-        blocks.emplace(index, block);
-        return Done{};
-      });
-  EXPECT_TRUE(read);
-  return blocks;
 }
 
 // ---- what it says of itself
