@@ -14,6 +14,9 @@ function(swiftlet_options target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)  # "text" + std::string is a false alarm: GCC bug 105651
   endif()
+  if(CMAKE_UNITY_BUILD)
+    target_compile_options(${target} PRIVATE -Wno-shadow -Wno-subobject-linkage)  # true of files, not of their sum
+  endif()
   if(SWIFTLET_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/support/blocks_of.hpp"
 #include "app/support/run_program.hpp"
 #include "support/recordings.hpp"
 #include "swiftlet/app/command.hpp"
@@ -58,20 +59,6 @@ void expect_refusal(const Ended& ended, int exit_code, const std::string& what) 
   EXPECT_THAT(ended.err, HasSubstr("swiftlet: "));
   EXPECT_THAT(ended.err, HasSubstr(what));
   EXPECT_THAT(ended.out, IsEmpty());
-}
-
-std::map<BlockIndex, VoxelBlock> blocks_of(const std::filesystem::path& path) {
-  std::map<BlockIndex, VoxelBlock> blocks;
-  const auto map = load_map(path);
-  EXPECT_TRUE(map) << map.error().text();
-  if (!map) return blocks;
-  const auto read =
-      map->for_each_block([&](const BlockIndex& index, const VoxelBlock& block) -> Status {
-        blocks.emplace(index, block);
-        return Done{};
-      });
-  EXPECT_TRUE(read);
-  return blocks;
 }
 
 // ---- what it says of itself
@@ -206,6 +193,25 @@ TEST_F(Program, does_not_overwrite_a_map_unless_told_to) {
   EXPECT_EQ(content_of(folder_ / "a.swl"), before);
   ASSERT_EQ(map_to("a.swl", {"--frames", "1", "--overwrite"}).exit_code, 0);
   EXPECT_EQ(load_map(folder_ / "a.swl")->frames(), 1U);
+}
+
+TEST_F(Program, overwrite_keeps_the_old_map_aside_until_the_new_one_is_saved) {
+  ASSERT_EQ(map_to("a.swl").exit_code, 0);
+  const std::string before = content_of(folder_ / "a.swl");
+  // Too small for any map, for the first batch, for the last one: a disk that fills sooner or
+  // later.
+  for (const std::uint64_t limit : {1U, 8192U, 16384U, 24576U, 32768U}) {
+    const Ended ended =
+        run({"map", "7scenes:rec", "-o", "a.swl", "--overwrite"}, folder_.path(), limit);
+    if (ended.exit_code == 0) break;
+    const bool is_aside = std::filesystem::exists(folder_ / "a.swl.bak");
+    EXPECT_EQ(content_of(folder_ / (is_aside ? "a.swl.bak" : "a.swl")), before) << limit;
+    if (!is_aside) continue;
+    expect_refusal(map_to("a.swl", {"--overwrite"}), 2, "a.swl.bak: the file exists");
+    std::filesystem::rename(folder_ / "a.swl.bak", folder_ / "a.swl");
+  }
+  ASSERT_EQ(map_to("a.swl", {"--overwrite"}).exit_code, 0);
+  EXPECT_THAT(left_behind("a.swl"), ::testing::ElementsAre("a.swl"));
 }
 
 TEST_F(Program, overwrite_keeps_the_old_map_if_there_is_nothing_to_map) {

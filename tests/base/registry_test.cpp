@@ -16,14 +16,14 @@ constexpr std::array kTable{Registered<int>{"line", "thin", 1},
 
 TEST(FindRegistered, finds_every_line_by_its_name) {
   for (const auto& row : kTable) {
-    const auto found = find_registered<int>(kTable, row.name, "method");
+    const auto found = find_registered<Registered<int>>(kTable, row.name, "method");
     ASSERT_TRUE(found);
     EXPECT_EQ(found->make, row.make);
   }
 }
 
 TEST(FindRegistered, answers_an_unknown_name_with_the_known_ones) {
-  const auto found = find_registered<int>(kTable, "vox", "ray method");
+  const auto found = find_registered<Registered<int>>(kTable, "vox", "ray method");
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::kUsage);
   EXPECT_EQ(found.error().text(), "unknown ray method 'vox'; known are: line, voxel");

@@ -18,7 +18,6 @@ namespace {
 using std::chrono::milliseconds;
 using test::Random;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const Eigen::Quaterniond kLevel = Eigen::Quaterniond::Identity();
 
 /// Constant velocity and constant turn rate: what linear + SLERP interpolation must hit exactly.
@@ -134,7 +133,7 @@ TEST(PoseTrack, refuses_and_counts_poses_that_are_not_finite_or_not_unit) {
   PoseTrack track;
   for (int i = 0; i < 4; ++i) {
     Eigen::Quaterniond q = kLevel;
-    q.coeffs()(i) = kNaN;
+    q.coeffs()(i) = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(track.push(ms(i), q, Eigen::Vector3d::Zero()), PoseIntake::kNotFinite);
   }
   EXPECT_EQ(track.push(ms(4), kLevel, {0, std::numeric_limits<double>::infinity(), 0}),

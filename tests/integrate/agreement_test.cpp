@@ -15,9 +15,7 @@ namespace {
 using test::AgreementCheck;
 using test::Random;
 
-constexpr double kVoxel_m = 0.1;
-
-AgreementCheck new_check() { return {kVoxel_m, {9, 9, 9}, Eigen::Vector3d::Zero(), 10.0}; }
+AgreementCheck new_check() { return {0.1, {9, 9, 9}, Eigen::Vector3d::Zero(), 10.0}; }
 
 PinholeIntrinsics camera() { return test::small_camera(320, 240); }
 

@@ -12,7 +12,7 @@
 namespace swiftlet::sim {
 namespace {
 
-Scene scene_of(std::vector<Object> objects) {
+Scene scene_with(std::vector<Object> objects) {
   Scene scene;
   scene.objects = std::move(objects);
   return scene;
@@ -29,7 +29,7 @@ Hit cast_one(const RayCaster& caster, const Eigen::Vector3d& from,
 TEST(RayCaster, hits_a_wire_of_3_mm_within_its_radius_and_misses_it_beyond) {
   test::Random random;
   const auto caster =
-      RayCaster::create(scene_of({{"wire", Cylinder{{4, -3, 0.5}, {4, 3, 0.5}, 0.003}}})).value();
+      RayCaster::create(scene_with({{"wire", Cylinder{{4, -3, 0.5}, {4, 3, 0.5}, 0.003}}})).value();
   for (int i = 0; i < 2000; ++i) {
     // A level ray at height h meets the wire if |h - 0.5| < 1.5 mm. 16 sides leave 0.03 mm, floats
     // 0.001 mm at 4 m.
@@ -45,7 +45,7 @@ TEST(RayCaster, meets_a_turned_box_where_the_slab_test_does) {
   test::Random random;
   for (int trial = 0; trial < 50; ++trial) {
     const Box box{random.vector(-1, 1), random.vector(0.2, 2.0), random.rotation()};
-    const auto caster = RayCaster::create(scene_of({{"box", box}})).value();
+    const auto caster = RayCaster::create(scene_with({{"box", box}})).value();
     for (int i = 0; i < 50; ++i) {
       const Eigen::Vector3d from = 6.0 * random.vector(-1, 1).normalized();
       const Eigen::Vector3d direction = random.vector(-1.5, 1.5) - from;
@@ -66,7 +66,7 @@ TEST(RayCaster, meets_a_turned_box_where_the_slab_test_does) {
 }
 
 TEST(RayCaster, tells_incidence_and_texture_of_the_surface) {
-  Scene scene = scene_of({{"wall", Plane{{2, 0, 0}, {-1, 0, 0}}, 1}});
+  Scene scene = scene_with({{"wall", Plane{{2, 0, 0}, {-1, 0, 0}}, 1}});
   scene.materials.push_back({"blank", 0.25});
   const auto caster = RayCaster::create(scene).value();
   const Hit hit = cast_one(caster, {0, 0, 0}, {1, std::tan(1.0), 0});
@@ -76,7 +76,7 @@ TEST(RayCaster, tells_incidence_and_texture_of_the_surface) {
 }
 
 TEST(RayCaster, moves_what_moves_and_leaves_the_rest) {
-  Scene scene = scene_of({{"wall", Plane{{5, 0, 0}, {-1, 0, 0}}}});
+  Scene scene = scene_with({{"wall", Plane{{5, 0, 0}, {-1, 0, 0}}}});
   scene.movers.push_back({"cube",
                           {{"cube", Box{{0, 0, 0}, {1, 1, 1}}}},
                           Flight::create({{0, {3, 4, 0}}, {2, {3, -4, 0}}}).value()});
@@ -91,8 +91,8 @@ TEST(RayCaster, moves_what_moves_and_leaves_the_rest) {
 }
 
 TEST(RayCaster, sees_a_point_unless_something_stands_before_it) {
-  const auto caster = RayCaster::create(scene_of({{"wall", Plane{{4, 0, 0}, {-1, 0, 0}}},
-                                                  {"box", Box{{2, 0, 0}, {0.1, 1, 1}}}}))
+  const auto caster = RayCaster::create(scene_with({{"wall", Plane{{4, 0, 0}, {-1, 0, 0}}},
+                                                    {"box", Box{{2, 0, 0}, {0.1, 1, 1}}}}))
                           .value();
   const std::vector<Eigen::Vector3f> points{{4, 0, 0}, {4, 3, 0}, {1.95F, 0, 0}};
   std::vector<std::uint8_t> is_seen(3);

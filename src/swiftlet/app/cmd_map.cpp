@@ -33,6 +33,11 @@ struct MapOptions {
 /// Told before the flight and not after it.
 Status check_output(const MapOptions& options) {
   std::error_code unreadable;
+  if (options.overwrite && std::filesystem::exists(path_aside(options.out), unreadable)) {
+    return fail(ErrorCode::kUsage, path_aside(options.out),
+                "the file exists; a flight that was cut off has left it, or it is yours",
+                "move or remove it: the old map is to stand there");
+  }
   if (options.overwrite || !std::filesystem::exists(options.out, unreadable)) return Done{};
   return fail(ErrorCode::kUsage, options.out, "the file exists",
               "add --overwrite or choose another name with -o");
@@ -154,7 +159,8 @@ Action declare_map(CLI::App& parser) {
   parser.add_option("-o,--out", o->out, "map file to write")
       ->type_name("FILE")
       ->capture_default_str();
-  parser.add_flag("--overwrite", o->overwrite, "replace the map file if there is one");
+  parser.add_flag("--overwrite", o->overwrite,
+                  "replace the map; until the new one is saved it is FILE.bak");
   parser.add_option("--config", o->config.file, "parameters, as a YAML file")->type_name("FILE");
   parser.add_option("--set", o->config.settings, "one parameter, as in map.voxel_m=0.1")
       ->type_name("KEY=VALUE")

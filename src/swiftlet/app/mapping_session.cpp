@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "swiftlet/store/map_file.hpp"
 #include "swiftlet/store/saved_map.hpp"
 
 namespace swiftlet::app {
@@ -29,11 +30,25 @@ void MappingSession::book(const MapUpdate& update) {
   summary_.memory_bytes = mapper_->memory_bytes();
 }
 
+Status MappingSession::set_old_map_aside() {
+  std::error_code unreadable;
+  if (!options_.store.overwrite || !std::filesystem::is_regular_file(options_.path, unreadable)) {
+    return Done{};
+  }
+  auto renamed = MapFile::rename(options_.path, path_aside(options_.path));
+  is_old_map_aside_ = renamed.has_value();
+  return renamed;
+}
+
 Status MappingSession::create_file(const Eigen::Vector3d& start_m) {
   options_.meta["start_m"] = fmt::format("{} {} {}", start_m.x(), start_m.y(), start_m.z());
+  if (auto aside = set_old_map_aside(); !aside) return aside;
   auto store =
       TileStore::create(options_.path, mapper_->map().voxel_m(), options_.store, options_.meta);
-  if (!store) return forward_error(std::move(store));
+  if (!store) {
+    if (is_old_map_aside_) (void)MapFile::rename(path_aside(options_.path), options_.path);
+    return forward_error(std::move(store));
+  }
   store_ = std::move(*store);
   store_->follow(mapper_->reader());
   archive_.attach(*store_);
@@ -59,6 +74,7 @@ Status MappingSession::save() {
   auto file = read_back();
   if (!file) return forward_error(std::move(file));
   summary_.file = std::move(*file);
+  if (is_old_map_aside_) MapFile::remove(path_aside(options_.path));
   return Done{};
 }
 

@@ -18,8 +18,12 @@ struct SessionOptions {
   MapMeta meta;
 };
 
+/// Where a map stands while the one that replaces it is made.
+[[nodiscard]] inline std::string path_aside(const std::string& path) { return path + ".bak"; }
+
 /// Maps frames into a file. The file is made when the first frame has been integrated and not
-/// before, so that input without any use leaves none.
+/// before, so that input without any use leaves none. A map that it replaces stands aside until the
+/// new one is saved.
 /// Thread safety: none, one owner.
 class MappingSession {
  public:
@@ -62,10 +66,12 @@ class MappingSession {
 
   explicit MappingSession(const SessionOptions& options) : options_(options) {}
   [[nodiscard]] Status create_file(const Eigen::Vector3d& start_m);
+  [[nodiscard]] Status set_old_map_aside();
   [[nodiscard]] Expected<SavedFile> read_back() const;
   void book(const MapUpdate& update);
 
   SessionOptions options_;
+  bool is_old_map_aside_ = false;
   MappingSummary summary_;
   // In this order: the mapper calls the archive, which calls the store, which reads the map.
   std::unique_ptr<TileStore> store_;

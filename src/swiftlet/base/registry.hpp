@@ -25,11 +25,10 @@ struct Registered {
 
 /// The entry of that name. Errors: kUsage naming what there is; `kind` is the noun, as in "ray
 /// method".
-template <class Make>
-[[nodiscard]] Expected<Registered<Make>> find_registered(std::span<const Registered<Make>> table,
-                                                         std::string_view name,
-                                                         std::string_view kind) {
-  const auto found = std::ranges::find(table, name, &Registered<Make>::name);
+template <class Entry>
+[[nodiscard]] Expected<Entry> find_registered(std::span<const Entry> table, std::string_view name,
+                                              std::string_view kind) {
+  const auto found = std::ranges::find(table, name, &Entry::name);
   if (found != table.end()) return *found;
   std::string known;
   for (const auto& entry : table) known += (known.empty() ? "" : ", ") + std::string(entry.name);

@@ -51,9 +51,9 @@ struct BlockIndex {
 
 /// Position of a voxel inside its block: x fastest, then y, then z. 0 <= offset < 512.
 [[nodiscard]] constexpr std::uint16_t offset_in_block(const VoxelIndex& v) {
-  constexpr int mask = kBlockEdge - 1;
-  return static_cast<std::uint16_t>(((v.z & mask) << (2 * kBlockShift)) |
-                                    ((v.y & mask) << kBlockShift) | (v.x & mask));
+  constexpr int kMask = kBlockEdge - 1;
+  return static_cast<std::uint16_t>(((v.z & kMask) << (2 * kBlockShift)) |
+                                    ((v.y & kMask) << kBlockShift) | (v.x & kMask));
 }
 
 [[nodiscard]] constexpr VoxelIndex first_voxel(const BlockIndex& b) {
@@ -62,8 +62,8 @@ struct BlockIndex {
 
 /// The voxel at an offset of a block; inverse of block_of() and offset_in_block().
 [[nodiscard]] constexpr VoxelIndex voxel_at(const BlockIndex& b, int offset) {
-  constexpr int mask = kBlockEdge - 1;
-  return {b.x * kBlockEdge + (offset & mask), b.y * kBlockEdge + ((offset >> kBlockShift) & mask),
+  constexpr int kMask = kBlockEdge - 1;
+  return {b.x * kBlockEdge + (offset & kMask), b.y * kBlockEdge + ((offset >> kBlockShift) & kMask),
           b.z * kBlockEdge + (offset >> (2 * kBlockShift))};
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include <algorithm>
 #include <array>
-#include <string>
 
+#include "swiftlet/base/registry.hpp"
 #include "swiftlet/integrate/ray_method.hpp"
 
 // A ray method is one file, which ends in trace_<name>(), and one line here: name, is_exact,
@@ -29,13 +28,7 @@ std::span<const RayMethod> ray_methods() {
 }
 
 Expected<RayMethod> find_ray_method(std::string_view name) {
-  const auto found = std::ranges::find(ray_methods(), name, &RayMethod::name);
-  if (found != ray_methods().end()) return *found;
-  std::string known;
-  for (const RayMethod& method : ray_methods())
-    known += (known.empty() ? "" : ", ") + std::string(method.name);
-  return fail(ErrorCode::kUsage, {}, "unknown ray method '" + std::string(name) + "'",
-              "known are: " + known);
+  return find_registered(ray_methods(), name, "ray method");
 }
 
 }  // namespace swiftlet

@@ -12,11 +12,10 @@ namespace swiftlet {
 namespace {
 
 constexpr double kMaxBlocks = 1 << 24;
-constexpr double kMaxCoordinate_m = 1e6;
 
 Status validate(const RollingMap::Options& o) {
   const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
-  if (!positive(o.voxel_m) || o.voxel_m > kMaxCoordinate_m || o.voxel_m < 1e-3) {
+  if (!positive(o.voxel_m) || o.voxel_m > RollingMap::kMaxCoordinate_m || o.voxel_m < 1e-3) {
     return fail(ErrorCode::kInvalidConfig, "map.voxel_m",
                 "the cell size must lie between 1 mm and 1000 km");
   }

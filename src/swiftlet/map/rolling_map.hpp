@@ -33,6 +33,9 @@ namespace swiftlet {
 /// window) in words. Never allocates after construction.
 class RollingMap {
  public:
+  /// The vehicle stays within this distance of the origin along each axis, so that indices fit.
+  static constexpr double kMaxCoordinate_m = 1e6;
+
   struct Options {
     double voxel_m = 0.2;
     Eigen::Vector3d size_m{20.0, 20.0, 6.0};

@@ -9,8 +9,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kMaxCoordinate_m = 1e6;
-
 bool has_readings(const ConditionedDepth& depth) {
   return std::ranges::any_of(depth.raw.pixels(), [](std::uint16_t d) { return d != 0; });
 }
@@ -42,7 +40,7 @@ std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) const {
   if (raw.width() != frame.intrinsics.width() || raw.height() != frame.intrinsics.height()) {
     return FrameVerdict::kSizeMismatch;
   }
-  if (frame.T_world_camera.translation().cwiseAbs().maxCoeff() >= kMaxCoordinate_m) {
+  if (frame.T_world_camera.translation().cwiseAbs().maxCoeff() >= RollingMap::kMaxCoordinate_m) {
     return FrameVerdict::kPoseOutOfRange;
   }
   return std::nullopt;

@@ -4,7 +4,6 @@
 #include "swiftlet/store/batch_writer.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <string>
 
 namespace swiftlet {
@@ -200,13 +199,14 @@ void BatchWriter::set_known(const BlockIndex& index, const std::optional<Known>&
 }
 
 void BatchWriter::undo() {
-  for (const auto& [index, before] : undo_ | std::views::reverse) {
+  std::for_each(undo_.rbegin(), undo_.rend(), [this](const auto& change) {
+    const auto& [index, before] = change;
     if (before) {
       known_[index] = *before;
     } else {
       known_.erase(index);
     }
-  }
+  });
   undo_.clear();
 }
 

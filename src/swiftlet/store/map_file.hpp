@@ -63,6 +63,9 @@ class MapFile {
                                      const MapMeta& meta = {});
   /// Removes a map that nobody has open, and its logs.
   static void remove(const std::filesystem::path& path);
+  /// Renames a map that nobody has open, and its logs. Errors: kIo.
+  [[nodiscard]] static Status rename(const std::filesystem::path& from,
+                                     const std::filesystem::path& to);
   /// Errors: kNotFound, kCorruptInput if it is no Swiftlet map or damaged, kUnsupported if it is of
   /// a newer version, kIo.
   [[nodiscard]] static Expected<MapFile> open_to_read(const std::filesystem::path& path);

@@ -100,6 +100,22 @@ void MapFile::remove(const fs::path& path) {
   for (const char* suffix : {"", "-wal", "-shm", "-journal"}) remove_quietly(beside(path, suffix));
 }
 
+Status MapFile::rename(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) {
+    return fail(ErrorCode::kIo, from.string(),
+                fmt::format("the map cannot be renamed to {}: {}", to.string(), error.message()));
+  }
+  for (const char* suffix : {"-wal", "-journal"}) {  // of a writer that was killed
+    if (fs::exists(beside(from, suffix), error)) {
+      fs::rename(beside(from, suffix), beside(to, suffix), error);
+    }
+  }
+  remove_quietly(beside(from, "-shm"));  // only an index of -wal; made anew
+  return Done{};
+}
+
 Status MapFile::check_identity() const {
   auto id = database_.integer("PRAGMA application_id");
   if (!id) return forward_error(std::move(id));

@@ -6,29 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/support/blocks_of.hpp"
 #include "app/support/run_program.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/store/saved_map.hpp"
 
 namespace swiftlet::test {
 namespace {
-
-std::map<BlockIndex, VoxelBlock> blocks_of(const std::filesystem::path& path) {
-  std::map<BlockIndex, VoxelBlock> blocks;
-  const auto map = load_map(path);
-  EXPECT_TRUE(map) << map.error().text();
-  if (!map) return blocks;
-  const auto read =
-      map->for_each_block([&](const BlockIndex& i, const VoxelBlock& block) -> Status {
-        blocks.emplace(i, block);
-        return Done{};
-      });
-  EXPECT_TRUE(read);
-  return blocks;
-}
 
 struct Recording {
   const char* name;
