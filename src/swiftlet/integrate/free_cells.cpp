@@ -11,7 +11,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "swiftlet/integrate/cell_lanes-inl.hpp"
+#include "swiftlet/integrate/cell_lanes_private.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swiftlet {

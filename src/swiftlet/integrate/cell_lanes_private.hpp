@@ -3,11 +3,11 @@
 
 // What the kernels of cells share. Included once for every instruction set, so there is no #pragma
 // once but Highway's toggle.
-#if defined(SWIFTLET_CELL_LANES_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWIFTLET_CELL_LANES_INL
-#undef SWIFTLET_CELL_LANES_INL
+#if defined(SWIFTLET_CELL_LANES_PRIVATE) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWIFTLET_CELL_LANES_PRIVATE
+#undef SWIFTLET_CELL_LANES_PRIVATE
 #else
-#define SWIFTLET_CELL_LANES_INL
+#define SWIFTLET_CELL_LANES_PRIVATE
 #endif
 
 #include <hwy/highway.h>
