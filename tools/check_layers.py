@@ -102,7 +102,7 @@ def fault_of(file, layer_name, layers, header, source_root):
     if layer.is_core and header in IO_HEADERS:
         return f"core layer {layer_name} does no I/O, but includes <{header}>"
     is_installed = file.suffix == ".hpp" and not file.name.endswith("_private.hpp")
-    if file.suffix == ".cpp" and PRIVATE_THIRD_PARTY.fullmatch(header):
+    if not is_installed and PRIVATE_THIRD_PARTY.fullmatch(header):
         return None
     is_public = layer.is_core or (is_installed and layer_name != "app")
     if is_public and not is_standard(header) and not PUBLIC_THIRD_PARTY.fullmatch(header):
