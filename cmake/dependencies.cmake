@@ -14,6 +14,8 @@ find_package(SQLite3 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(yaml-cpp REQUIRED)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
+find_package(BZip2 REQUIRED)
 
 # Optional parts (see swiftlet_backend()).
 swiftlet_backend(NAME embree PACKAGE embree)    # ray casts the simulated scenes
