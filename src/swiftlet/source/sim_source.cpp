@@ -93,7 +93,8 @@ class SimSource final : public FrameSource {
         world_(std::move(world)),
         camera_(std::move(camera)),
         tracker_(scene.tracker, scene.seed, scene.flight, scene.T_body_camera, start),
-        rig_({.T_body_camera = scene.T_body_camera, .min_confidence = kMediumConfidence}) {}
+        rig_({.cameras = {{.T_body_camera = scene.T_body_camera}},
+              .poses = {.track = {}, .gates = {.min_confidence = kMediumConfidence}}}) {}
 
   Expected<std::optional<Frame>> next() override {
     while (true) {
