@@ -33,6 +33,8 @@ PoseGates PoseGates::open() {
 }
 
 std::optional<Transform<World, Body>> TrustedPoses::checked(const PoseSample& sample) {
+  if (!has_clock_) clock_ = sample.clock;  // even a sample that is not trusted tells it
+  has_clock_ = true;
   if (sample.confidence < options_.gates.min_confidence) {
     refuse(PoseRefusal::kLowConfidence);
     return std::nullopt;
@@ -46,7 +48,6 @@ std::optional<Transform<World, Body>> TrustedPoses::checked(const PoseSample& sa
     refuse(PoseRefusal::kNotUnit);
     return std::nullopt;
   }
-  if (!newest_) clock_ = sample.clock;
   if (sample.clock != clock_) {
     refuse(PoseRefusal::kClockMismatch);
     return std::nullopt;

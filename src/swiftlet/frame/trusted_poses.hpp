@@ -107,6 +107,7 @@ class TrustedPoses {
   PoseMark mark_;
   std::optional<Stamp> newest_;
   ClockDomain clock_ = ClockDomain::kUnspecified;
+  bool has_clock_ = false;
   std::array<std::size_t, kPoseRefusalNames.size()> refused_{};
 };
 
