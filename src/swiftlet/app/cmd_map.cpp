@@ -14,6 +14,7 @@
 #include "swiftlet/app/mapping_session.hpp"
 #include "swiftlet/app/progress.hpp"
 #include "swiftlet/source/address_options.hpp"
+#include "swiftlet/source/real_time_source.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace swiftlet::app {
@@ -48,6 +49,7 @@ struct MapOptions {
   std::uint64_t max_bytes = 0;
   std::size_t frames = 0;  ///< 0 for all
   RigFlags rig;
+  bool in_real_time = false;
   bool as_json = false;
 };
 
@@ -148,7 +150,8 @@ Faults map(const MapOptions& options) {
   if (!config) return std::move(config).error();
   auto source = open_source(options.rig.added_to(options.source));
   if (!source) return fault_of(std::move(source));
-  const SourceInfo& info = (*source)->info();
+  if (options.in_real_time) source = play_in_real_time(std::move(*source));
+  const SourceInfo info = (*source)->info();
   adopt_baseline(info, *config);
 
   auto session =
@@ -184,6 +187,8 @@ Action declare_map(CLI::App& parser) {
   parser.add_option("--frames", o->frames, "stop after this many frames")
       ->check(positive)
       ->type_name("N");
+  parser.add_flag("--realtime", o->in_real_time,
+                  "play at recorded speed and lose frames when late, as a live rig does");
   const auto rig_flag = [&](const char* name, std::string& value, const char* meaning) {
     return parser.add_option(name, value, meaning)->group("Rig");
   };

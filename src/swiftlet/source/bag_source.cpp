@@ -12,8 +12,7 @@
 #include "swiftlet/source/address_options.hpp"
 #include "swiftlet/source/bag_streams.hpp"
 #include "swiftlet/source/joined_source.hpp"
-#include "swiftlet/source/rig_file.hpp"
-#include "swiftlet/source/text_file.hpp"
+#include "swiftlet/source/rig_options.hpp"
 #include "swiftlet/source/world_axes.hpp"
 
 // bag:FILE[,FILE...][?option=value&...]: recordings of the RealSense SDK and plain ROS 1 bags
@@ -24,9 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kKnown =
-    "rig=FILE, pairing=interpolate|nearest, on_jump=keep|clear, depth_topic, info_topic, "
-    "pose_topic, body_frame, pose_axes=rep103|t265|optical, pose_offset_ms, depth_unit_m";
+constexpr std::string_view kOwnOptions =
+    "depth_topic, info_topic, pose_topic, body_frame, pose_axes=rep103|t265|optical, depth_unit_m";
 
 struct BagRequest {
   std::vector<std::string> depth_files;
@@ -42,42 +40,23 @@ std::optional<BodyAxes> axes_from(std::string_view name) {
   return static_cast<BodyAxes>(found - kBodyAxesNames.begin());
 }
 
-/// Applies a number to whatever takes it; false if it is none or out of its limits.
-template <class Apply>
-bool apply_number(std::string_view text, double low, double high, Apply apply) {
-  const auto value = parse_number(text);
-  if (!value || !(*value >= low && *value <= high)) return false;
-  apply(*value);
-  return true;
-}
-
 /// false if the option is not known or cannot be meant.
 bool apply(std::string_view key, const std::string& value, BagRequest& request) {
-  RigOptions& rig = request.rig.rig;
-  if (key == "rig") return true;  // read first
   if (key == "depth_topic") return !(request.topics.depth = value).empty();
   if (key == "info_topic") return !(request.topics.info = value).empty();
   if (key == "pose_topic") return !(request.topics.pose = value).empty();
   if (key == "body_frame") return !(request.topics.body_frame = value).empty();
-  if (key == "pairing") {
-    rig.pairing = value == "nearest" ? PosePairing::kNearest : PosePairing::kInterpolate;
-    return value == "nearest" || value == "interpolate";
-  }
-  if (key == "on_jump") {
-    rig.poses.gates.on_jump = value == "clear" ? JumpPolicy::kClear : JumpPolicy::kKeep;
-    return value == "clear" || value == "keep";
-  }
   if (key == "pose_axes") {
     const auto axes = axes_from(value);
     request.topics.pose_axes = axes.value_or(BodyAxes::kRep103);
     return axes.has_value();
   }
-  if (key == "depth_unit_m")
-    return apply_number(value, 1e-6, 0.1, [&](double m) { request.topics.depth_unit_m = m; });
-  return key == "pose_offset_ms" && apply_number(value, -1000.0, 1000.0, [&](double ms) {
-           for (RigCamera& camera : rig.cameras)
-             camera.pose_offset = Nanoseconds(static_cast<std::int64_t>(ms * 1e6));
-         });
+  if (key == "depth_unit_m") {
+    const auto unit_m = number_within(value, 1e-6, 0.1);
+    request.topics.depth_unit_m = unit_m.value_or(0.001);
+    return unit_m.has_value();
+  }
+  return apply_rig_option(key, value, request.rig.rig);
 }
 
 std::vector<std::string> split_files(const std::string& place) {
@@ -112,18 +91,18 @@ Expected<BagRequest> parse_request(std::string_view rest) {
   auto address = parse_address(rest, "bag");
   if (!address) return forward_error(std::move(address));
   BagRequest request;
-  for (const auto& [key, value] : address->options) {
-    if (key != "rig") continue;
-    auto rig = load_rig(value);
-    if (!rig) return forward_error(std::move(rig));
-    request.rig = std::move(*rig);
+  auto rig = rig_of(*address);
+  if (!rig) return forward_error(std::move(rig));
+  if (*rig) {
+    request.rig = std::move(**rig);
     request.has_rig_file = true;
     request.topics.pose = request.rig.pose_stream;
     request.topics.body_frame = request.rig.body_frame;
     request.topics.pose_axes = request.rig.pose_axes;
   }
   for (const auto& [key, value] : address->options) {
-    if (!apply(key, value, request)) return bad_option("bag", key, value, std::string(kKnown));
+    if (!apply(key, value, request))
+      return bad_option("bag", key, value, fmt::format("{}, {}", kRigOptions, kOwnOptions));
   }
   if (auto assigned = assign_files(address->place, request); !assigned)
     return forward_error(std::move(assigned));
