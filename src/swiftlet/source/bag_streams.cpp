@@ -7,51 +7,18 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <deque>
-#include <map>
 #include <set>
 #include <utility>
 
 #include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/source/bag_scan.hpp"
+#include "swiftlet/source/frame_tree.hpp"
 
 namespace swiftlet {
 namespace {
 
 // Static transforms are recorded when the recorder starts; a chunk is about one image.
 constexpr std::uint64_t kChunksWithStatics = 200;
-
-/// The tree of frames: T_to_from by the frame it starts from.
-class FrameTree {
- public:
-  struct Anywhere {};
-  using Hop = Transform<Anywhere, Anywhere>;
-
-  void add(const ros::StampedPose& pose) {
-    const auto T = Hop::from(pose.pose.R, pose.pose.t_m);
-    if (!T) return;
-    hops_[pose.child].insert_or_assign(pose.parent, *T);
-    hops_[pose.parent].insert_or_assign(pose.child, T->inverse());
-  }
-
-  /// The pose of frame `from` in frame `to`.
-  [[nodiscard]] std::optional<Hop> find(const std::string& to, const std::string& from) const {
-    std::map<std::string, Hop> reached{{from, Hop{}}};
-    for (std::deque<std::string> open{from}; !open.empty(); open.pop_front()) {
-      const Hop T_here_from = reached.at(open.front());
-      if (open.front() == to) return T_here_from;
-      const auto here = hops_.find(open.front());
-      if (here == hops_.end()) continue;
-      for (const auto& [next, T_next_here] : here->second) {
-        if (reached.emplace(next, T_next_here * T_here_from).second) open.push_back(next);
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  std::map<std::string, std::map<std::string, Hop>> hops_;
-};
 
 std::string without_slash(std::string frame) {
   if (frame.starts_with('/')) frame.erase(0, 1);  // tf1 wrote "/base_link" for base_link
@@ -106,17 +73,15 @@ Expected<std::optional<Transform<Body, Camera>>> mount_from_tf(const std::filesy
     if (topic != "/tf_static") return reader->chunks_read() > kChunksWithStatics;
     const auto poses = ros::parse_poses(message.connection->type, message.data);
     if (!poses) return false;
-    for (ros::StampedPose pose : *poses) {
-      pose.parent = without_slash(std::move(pose.parent));
-      pose.child = without_slash(std::move(pose.child));
-      tree.add(pose);
+    for (const ros::StampedPose& pose : *poses) {
+      // One that is no transform ties nothing; if it was needed, the chain is not found.
+      (void)tree.add(without_slash(pose.parent), without_slash(pose.child), pose.pose.R,
+                     pose.pose.t_m);
     }
-    return tree.find(body, camera).has_value();
+    return tree.mount(body, camera).has_value();
   });
   if (!found) return forward_error(std::move(found));
-  const auto T = tree.find(body, camera);
-  if (!T) return std::nullopt;
-  return Transform<Body, Camera>::trusted(T->rotation(), T->translation());
+  return tree.mount(body, camera);
 }
 
 }  // namespace swiftlet

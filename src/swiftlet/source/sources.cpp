@@ -15,6 +15,8 @@
   X(ALWAYS, "tum", open_tum_source,                                                             \
     "TUM RGB-D folder: depth.txt and groundtruth.txt, joined by time")                          \
   X(ALWAYS, "bag", open_bag_source, "RealSense recording or ROS 1 bag: bag:depth.bag,pose.bag") \
+  X(ALWAYS, "openloris", open_openloris_source,                                                 \
+    "OpenLORIS-Scene folder: a D435i on a robot that a T265 rides too")                         \
   X(EMBREE, "sim", open_sim_source, "simulated D435 and T265 in a built-in scene or a .yaml file")
 
 // An opener whose part was not built must not even be named: there is nothing to link.
