@@ -10,8 +10,7 @@
 #include "swiftlet/base/contract.hpp"
 #include "swiftlet/base/voxel_index.hpp"
 
-// One line a fault: its name, what it sets, and a sentence for `swiftlet list faults` and
-// docs/rig.md.
+// One line a fault: its name, what it sets, and what that is.
 #define SWIFTLET_POSE_FAULTS(X)                                                          \
   X(nan, tracker.nan_chance = 0.03, "3 % of the poses are NaN")                          \
   X(jump, (tracker.jump = {seconds(at - Stamp{}), {0.4, -0.3, 0.0}, 0.0}),               \
