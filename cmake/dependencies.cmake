@@ -20,6 +20,7 @@ find_package(BZip2 REQUIRED)
 # Optional parts (see swiftlet_backend()).
 swiftlet_backend(NAME embree PACKAGE embree)    # ray casts the simulated scenes
 swiftlet_backend(NAME octomap PACKAGE octomap)  # writes and reads .bt / .ot
+swiftlet_backend(NAME realsense PACKAGE realsense2)  # live cameras (docs/realsense.md)
 
 # The program.
 if(SWIFTLET_BUILD_PROGRAM)

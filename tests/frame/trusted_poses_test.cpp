@@ -155,6 +155,17 @@ TEST(TrustedPoses, starts_a_new_epoch_after_a_jump_in_a_silence_too_long_to_meas
   EXPECT_EQ(poses.track().find(stamp_of(250))->mark.epoch, 1U);
 }
 
+TEST(TrustedPoses, starts_a_new_epoch_when_told_even_where_the_poses_seem_to_go_on) {
+  TrustedPoses poses({});
+  for (int i = 0; i < 20; ++i) {
+    if (i == 10) poses.start_anew();
+    poses.push(flown(i));
+  }
+  EXPECT_EQ(poses.track().find(stamp_of(9))->mark.epoch, 0U);
+  EXPECT_EQ(poses.track().find(stamp_of(10))->mark.epoch, 1U);
+  EXPECT_EQ(poses.track().find(stamp_of(10) - Nanoseconds(1)).error(), PoseMiss::kAcrossJump);
+}
+
 TEST(TrustedPoses, sees_a_jump_behind_a_short_silence) {
   TrustedPoses poses({});
   for (int i = 0; i < 300; ++i) {

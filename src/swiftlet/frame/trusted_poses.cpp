@@ -140,6 +140,14 @@ void TrustedPoses::jump() {
   for (const Pose& raw : std::exchange(held_, {})) accept(anchored(raw));
 }
 
+void TrustedPoses::start_anew() {
+  ++mark_.segment;
+  ++mark_.epoch;
+  T_world_source_ = {};
+  recent_.clear();
+  held_.clear();
+}
+
 void TrustedPoses::hold(const Pose& raw) {
   if (!held_.empty() && !is_plausible_after(held_, raw)) {
     refuse(PoseRefusal::kOutlier, held_.size());

@@ -69,6 +69,9 @@ class TrustedPoses {
   explicit TrustedPoses(const Options& options) : options_(options), track_(options.track) {}
 
   void push(const PoseSample& sample);
+  /// The source was switched off and on: its next pose is of another world, wherever it seems to
+  /// be.
+  void start_anew();
 
   /// See PoseTrack::find() and nearest().
   [[nodiscard]] const PoseTrack& track() const { return track_; }

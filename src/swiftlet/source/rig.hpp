@@ -65,6 +65,8 @@ class Rig {
   explicit Rig(const Options& options);
 
   void push(const PoseSample& pose);
+  /// The pose source was switched off and on: a new epoch begins with its next pose.
+  void start_poses_anew() { poses_.start_anew(); }
   /// The images of one camera come in time order; one that does not is lost (counted).
   /// REQUIRES: depth.camera is one of the rig's.
   void push(DepthFrame depth);

@@ -17,6 +17,8 @@
   X(ALWAYS, "bag", open_bag_source, "RealSense recording or ROS 1 bag: bag:depth.bag,pose.bag") \
   X(ALWAYS, "openloris", open_openloris_source,                                                 \
     "OpenLORIS-Scene folder: a D435i on a robot that a T265 rides too")                         \
+  X(REALSENSE, "realsense", open_realsense_source,                                              \
+    "live RealSense D400 and T265: realsense: or realsense:SERIAL")                             \
   X(EMBREE, "sim", open_sim_source, "simulated D435 and T265 in a built-in scene or a .yaml file")
 
 // An opener whose part was not built must not even be named: there is nothing to link.
