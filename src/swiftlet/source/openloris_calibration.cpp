@@ -36,7 +36,12 @@ std::string without_directive(std::string text) {
 template <class Read>
 auto with_yaml(const fs::path& file, Read read) -> decltype(read(YAML::Node())) {
   auto text = read_file(file);
-  if (!text) return forward_error(std::move(text));
+  if (!text) {
+    text.error().remedy =
+        "an OpenLORIS-Scene folder holds depth.txt, groundtruth.txt, "
+        "sensors.yaml, trans_matrix.yaml and the images";
+    return forward_error(std::move(text));
+  }
   try {
     return read(YAML::Load(without_directive(std::move(*text))));
   } catch (const YAML::Exception& error) {

@@ -72,6 +72,14 @@ class ListedPoses final : public PoseStream {
   std::size_t next_ = 0;
 };
 
+/// The lists have the format of TUM's, but the folder is another.
+template <class List>
+Expected<List> of_this_kind(Expected<List> list) {
+  if (!list && list.error().code == ErrorCode::kNotFound)
+    list.error().remedy = fmt::format("the folder should hold {}", kContent);
+  return list;
+}
+
 struct Request {
   std::string images = "depth";
   std::string poses;  // empty: the ground truth
@@ -110,10 +118,10 @@ Expected<FrameSourcePtr> open_openloris_source(std::string_view rest) {
   auto camera = read_openloris_camera(
       folder, is_aligned ? "d400_color_optical_frame" : "d400_depth_optical_frame");
   if (!camera) return forward_error(std::move(camera));
-  auto images = read_tum_images(folder / (request->images + ".txt"));
+  auto images = of_this_kind(read_tum_images(folder / (request->images + ".txt")));
   if (!images) return forward_error(std::move(images));
-  auto poses = read_tum_poses(request->poses.empty() ? folder / "groundtruth.txt"
-                                                     : fs::path(request->poses));
+  auto poses = of_this_kind(read_tum_poses(request->poses.empty() ? folder / "groundtruth.txt"
+                                                                  : fs::path(request->poses)));
   if (!poses) return forward_error(std::move(poses));
 
   request->rig.cameras.front().T_body_camera = camera->T_body_camera;
