@@ -14,10 +14,13 @@ find_package(SQLite3 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(yaml-cpp REQUIRED)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
+find_package(BZip2 REQUIRED)
 
 # Optional parts (see swiftlet_backend()).
 swiftlet_backend(NAME embree PACKAGE embree)    # ray casts the simulated scenes
 swiftlet_backend(NAME octomap PACKAGE octomap)  # writes and reads .bt / .ot
+swiftlet_backend(NAME realsense PACKAGE realsense2)  # live cameras (docs/realsense.md)
 
 # The program.
 if(SWIFTLET_BUILD_PROGRAM)

@@ -22,9 +22,9 @@ int main() {
   // The rig joins depth images with poses in time; the camera looks forward, 10 cm ahead of the
   // body's origin.
   swiftlet::Rig::Options options;
-  options.T_body_camera = swiftlet::Transform<swiftlet::Body, swiftlet::Body>::trusted(
-                              Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.0}) *
-                          swiftlet::forward_looking_camera();
+  options.cameras[0].T_body_camera = swiftlet::Transform<swiftlet::Body, swiftlet::Body>::trusted(
+                                         Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.0}) *
+                                     swiftlet::forward_looking_camera();
   swiftlet::Rig rig(options);
 
   // Yours: poses at 200 Hz, depth at 30 Hz, in whatever order they arrive. Here: 1 m/s towards a

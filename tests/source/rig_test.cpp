@@ -18,7 +18,10 @@ using std::chrono::milliseconds;
 Stamp ms(std::int64_t value) { return Stamp{} + milliseconds(value); }
 
 PoseSample pose_at(std::int64_t t_ms, std::uint8_t confidence = 3) {
-  return {ms(t_ms), Eigen::Quaterniond::Identity(), {static_cast<double>(t_ms), 0, 0}, confidence};
+  return {ms(t_ms),
+          Eigen::Quaterniond::Identity(),
+          {static_cast<double>(t_ms) * 1e-3, 0, 0},
+          confidence};
 }
 DepthFrame depth_at(std::int64_t t_ms) {
   return {ms(t_ms), DepthImage{}, PinholeIntrinsics::create(4, 4, 4, 4, 2, 2).value()};
@@ -32,7 +35,7 @@ TEST(Rig, gives_a_depth_image_the_pose_of_its_own_time_and_the_mount) {
   test::for_each_seed(50, [](test::Random& random) {
     const auto R = random.rotation();
     const auto mount = Transform<Body, Camera>::from(R, random.vector(-0.2, 0.2)).value();
-    Rig rig({.T_body_camera = mount});
+    Rig rig({.cameras = {{.T_body_camera = mount}}});
     rig.push(pose_at(0));
     rig.push(depth_at(4));
     EXPECT_FALSE(rig.pop()) << "the pose after it has not come";
@@ -40,7 +43,7 @@ TEST(Rig, gives_a_depth_image_the_pose_of_its_own_time_and_the_mount) {
     const auto frame = rig.pop();
     ASSERT_TRUE(frame);
     EXPECT_EQ(frame->stamp, ms(4));
-    const Eigen::Vector3d expected = Eigen::Vector3d(4, 0, 0) + mount.translation();
+    const Eigen::Vector3d expected = Eigen::Vector3d(0.004, 0, 0) + mount.translation();
     EXPECT_LT((frame->T_world_camera.translation() - expected).norm(), 1e-12);
     EXPECT_LT(frame->T_world_camera.rotation().angularDistance(mount.rotation()), 1e-7);
   });
@@ -85,7 +88,7 @@ TEST(Rig, decides_at_the_end_what_still_waits) {
 }
 
 TEST(Rig, loses_images_before_the_first_pose_and_in_gaps_by_their_reasons) {
-  Rig rig({.track = {.max_gap = milliseconds(100)}});
+  Rig rig({.poses = {.track = {.max_gap = milliseconds(100)}, .gates = {}}});
   rig.push(depth_at(0));
   rig.push(depth_at(50));
   rig.push(depth_at(200));
@@ -98,7 +101,7 @@ TEST(Rig, loses_images_before_the_first_pose_and_in_gaps_by_their_reasons) {
 }
 
 TEST(Rig, refuses_poses_the_tracker_does_not_trust_and_broken_ones) {
-  Rig rig({.min_confidence = 2});
+  Rig rig({.poses = {.track = {}, .gates = {.min_confidence = 2}}});
   rig.push(pose_at(0, 1));
   PoseSample broken = pose_at(1);
   broken.t_world_body_m.y() = std::numeric_limits<double>::quiet_NaN();

@@ -83,7 +83,8 @@ TEST_P(EveryFolderSource, refuses_an_address_without_a_place) {
   EXPECT_EQ(error_of_opening("").code, ErrorCode::kUsage);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sources, EveryFolderSource, ::testing::Values("7scenes", "tum"),
+INSTANTIATE_TEST_SUITE_P(Sources, EveryFolderSource,
+                         ::testing::Values("7scenes", "tum", "openloris"),
                          [](const auto& kind) { return std::string("source_") + kind.param; });
 
 }  // namespace

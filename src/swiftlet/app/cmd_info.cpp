@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "swiftlet/app/bag_summary.hpp"
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/map_reader.hpp"
 #include "swiftlet/app/summary.hpp"
@@ -84,7 +85,16 @@ void print_json(const SavedMap& map, const MapSummary& summary) {
   fmt::print("{}\n", json.dump(2));
 }
 
+Faults info_on_bag(const InfoOptions& options) {
+  auto bag = summarize_bag(options.map);
+  if (!bag) return fault_of(std::move(bag));
+  fmt::print("{}", options.as_json ? bag_json(*bag) : bag_text(*bag));
+  if (bag->fault) return {*bag->fault};
+  return {};
+}
+
 Faults info(const InfoOptions& options) {
+  if (options.map.ends_with(".bag")) return info_on_bag(options);
   auto map = load_map(options.map);
   if (!map) return fault_of(std::move(map));
   auto thresholds = thresholds_of(*map);
@@ -99,12 +109,13 @@ Faults info(const InfoOptions& options) {
 
 Action declare_info(CLI::App& parser) {
   auto o = std::make_shared<InfoOptions>();
-  parser.add_option("MAP", o->map, "map file")->type_name("")->required();
+  parser.add_option("MAP", o->map, "map file, or a ROS bag (.bag)")->type_name("")->required();
   parser.add_flag("--json", o->as_json, "one JSON object, for machines");
   parser.footer(
       "Examples:\n"
       "  swiftlet info flat.swl\n"
-      "  swiftlet info flat.swl --json | jq .cells");
+      "  swiftlet info flat.swl --json | jq .cells\n"
+      "  swiftlet info flight.bag       lists its topics");
   return [o] { return info(*o); };
 }
 

@@ -13,10 +13,31 @@
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/mapping_session.hpp"
 #include "swiftlet/app/progress.hpp"
+#include "swiftlet/source/address_options.hpp"
+#include "swiftlet/source/real_time_source.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace swiftlet::app {
 namespace {
+
+/// Flags that stand for options of the source's address.
+struct RigFlags {
+  std::string rig, pairing, on_jump, depth_topic, info_topic, pose_topic, body_frame;
+
+  [[nodiscard]] std::string added_to(std::string address) const {
+    const std::pair<std::string_view, const std::string*> options[]{{"rig", &rig},
+                                                                    {"pairing", &pairing},
+                                                                    {"on_jump", &on_jump},
+                                                                    {"depth_topic", &depth_topic},
+                                                                    {"info_topic", &info_topic},
+                                                                    {"pose_topic", &pose_topic},
+                                                                    {"body_frame", &body_frame}};
+    for (const auto& [key, value] : options) {
+      if (!value->empty()) address = with_option(std::move(address), key, *value);
+    }
+    return address;
+  }
+};
 
 struct MapOptions {
   std::string source;
@@ -27,6 +48,8 @@ struct MapOptions {
   std::string store = "keep";
   std::uint64_t max_bytes = 0;
   std::size_t frames = 0;  ///< 0 for all
+  RigFlags rig;
+  bool in_real_time = false;
   bool as_json = false;
 };
 
@@ -130,9 +153,10 @@ Faults map(const MapOptions& options) {
   if (auto free = check_output(options); !free) return fault_of(std::move(free));
   auto config = config_of(options);
   if (!config) return std::move(config).error();
-  auto source = open_source(options.source);
+  auto source = open_source(options.rig.added_to(options.source));
   if (!source) return fault_of(std::move(source));
-  const SourceInfo& info = (*source)->info();
+  if (options.in_real_time) source = play_in_real_time(std::move(*source));
+  const SourceInfo info = (*source)->info();
   adopt_baseline(info, *config);
 
   auto session =
@@ -169,6 +193,26 @@ Action declare_map(CLI::App& parser) {
   parser.add_option("--frames", o->frames, "stop after this many frames")
       ->check(positive)
       ->type_name("N");
+  parser.add_flag("--realtime", o->in_real_time,
+                  "play at recorded speed and lose frames when late, as a live rig does");
+  const auto rig_flag = [&](const char* name, std::string& value, const char* meaning) {
+    return parser.add_option(name, value, meaning)->group("Rig");
+  };
+  rig_flag("--rig", o->rig.rig, "cameras, mounts and gates, as a YAML file (docs/rig.md)")
+      ->type_name("FILE");
+  rig_flag("--pairing", o->rig.pairing, "pose of an image: interpolate (default) or nearest")
+      ->type_name("HOW");
+  rig_flag("--on-jump", o->rig.on_jump,
+           "when the tracker corrects itself: keep (default) or clear the map")
+      ->type_name("WHAT");
+  rig_flag("--depth-topic", o->rig.depth_topic, "of a ROS bag, see 'swiftlet info FILE.bag'")
+      ->type_name("TOPIC");
+  rig_flag("--info-topic", o->rig.info_topic, "CameraInfo; default: camera_info beside the images")
+      ->type_name("TOPIC");
+  rig_flag("--pose-topic", o->rig.pose_topic, "Odometry, PoseStamped, TransformStamped or tf")
+      ->type_name("TOPIC");
+  rig_flag("--body-frame", o->rig.body_frame, "which frame of a tf topic is the vehicle")
+      ->type_name("FRAME");
   parser.add_option("--store", o->store, "what leaves the window: keep it in the file or drop it")
       ->check(CLI::IsMember({"keep", "drop"}))
       ->capture_default_str();
@@ -182,6 +226,7 @@ Action declare_map(CLI::App& parser) {
       "  swiftlet map 7scenes:redkitchen/seq-01 -o kitchen.swl\n"
       "  swiftlet map tum:freiburg1_room --set map.voxel_m=0.05 --set depth.downsample=4\n"
       "  swiftlet map sim:apartment --config flight.yaml --overwrite\n"
+      "  swiftlet map bag:d435.bag,t265.bag --rig my_rig.yaml\n"
       "'swiftlet list sources' tells every KIND, 'swiftlet list parameters' every KEY.\n"
       "Ctrl-C stops the flight and saves what was mapped (exit code 0); a second one gives up.");
   return [o] { return map(*o); };

@@ -6,13 +6,13 @@
 #include "swiftlet/app/command.hpp"
 
 // A subcommand is one file, which ends in declare_<name>(), and one line here.
-#define SWIFTLET_COMMANDS(X)                                    \
-  X(map, "build a map from a recorded or simulated flight")     \
-  X(info, "tell what a map file holds and where it comes from") \
-  X(render, "draw a map as a PNG picture")                      \
-  X(export, "write a map in another program's format")          \
-  X(compare, "count the cells in which two maps differ")        \
-  X(check, "look for faults in map files and config files")     \
+#define SWIFTLET_COMMANDS(X)                                  \
+  X(map, "build a map from a recorded or simulated flight")   \
+  X(info, "tell what a map file or a recording (.bag) holds") \
+  X(render, "draw a map as a PNG picture")                    \
+  X(export, "write a map in another program's format")        \
+  X(compare, "count the cells in which two maps differ")      \
+  X(check, "look for faults in map files and config files")   \
   X(list, "list every source, method, format, view, parameter")
 
 namespace swiftlet::app {

@@ -55,7 +55,24 @@ Status MappingSession::create_file(const Eigen::Vector3d& start_m) {
   return Done{};
 }
 
+/// The tracker has lost its place: what was mapped lies anywhere, seen from now on.
+Status MappingSession::start_again() {
+  ++summary_.restarts;
+  archive_.detach();
+  store_.reset();
+  options_.store.overwrite = true;  // the file is ours by now
+  auto mapper = Mapper::create(mapper_->config(), &archive_);
+  if (!mapper) return forward_error(std::move(mapper));
+  mapper_ = std::make_unique<Mapper>(std::move(*mapper));
+  return Done{};
+}
+
 Status MappingSession::integrate(const Frame& frame) {
+  const bool is_new_world = frame.pose_epoch != pose_epoch_;
+  pose_epoch_ = frame.pose_epoch;
+  if (is_new_world && has_map()) {
+    if (auto started = start_again(); !started) return started;
+  }
   const MapUpdate update = mapper_->integrate(frame);
   book(update);
   if (update.verdict != FrameVerdict::kIntegrated) return Done{};

@@ -31,8 +31,9 @@ class MappingSession {
   [[nodiscard]] static Expected<std::unique_ptr<MappingSession>> create(
       const MapperConfig& config, const SessionOptions& options);
 
-  /// Fuses one frame. Errors: kUsage, kInvalidConfig, kIo if the map file cannot be made; kIo if
-  /// the disk has refused for so long that blocks of the map were lost.
+  /// Fuses one frame; one of a new pose epoch begins the map and its file anew. Errors: kUsage,
+  /// kInvalidConfig, kIo if the map file cannot be made; kIo if the disk has refused for so long
+  /// that blocks of the map were lost.
   [[nodiscard]] Status integrate(const Frame& frame);
 
   /// Writes what is left and closes the file; counts what it holds.
@@ -50,6 +51,7 @@ class MappingSession {
   class LateArchive final : public BlockArchive {
    public:
     void attach(BlockArchive& store) { store_ = &store; }
+    void detach() { store_ = nullptr; }
     void evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) override {
       if (store_ != nullptr) store_->evict(index, block, version);
     }
@@ -68,6 +70,7 @@ class MappingSession {
   [[nodiscard]] Status create_file(const Eigen::Vector3d& start_m);
   [[nodiscard]] Status set_old_map_aside();
   [[nodiscard]] Expected<SavedFile> read_back() const;
+  [[nodiscard]] Status start_again();
   void book(const MapUpdate& update);
 
   SessionOptions options_;
@@ -77,6 +80,7 @@ class MappingSession {
   std::unique_ptr<TileStore> store_;
   LateArchive archive_;
   std::unique_ptr<Mapper> mapper_;
+  std::uint32_t pose_epoch_ = 0;
 };
 
 }  // namespace swiftlet::app

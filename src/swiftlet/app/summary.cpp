@@ -29,6 +29,39 @@ std::string latency_text(const Latency& latency) {
   return text;
 }
 
+/// "12 not_finite, 3 low_confidence"
+std::string reasons_text(const FrameTally& tally) {
+  std::string reasons;
+  for (std::size_t i = 0; i < kPoseRefusalNames.size(); ++i) {
+    if (tally.poses_refused_by[i] == 0) continue;
+    reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", tally.poses_refused_by[i],
+                           kPoseRefusalNames[i]);
+  }
+  return reasons;
+}
+
+std::string poses_text(const FrameTally& tally, std::size_t restarts) {
+  std::string text;
+  if (tally.poses_refused > 0)
+    text += fmt::format("  poses      {} refused ({})\n", tally.poses_refused, reasons_text(tally));
+  if (tally.pose_jumps > 0) {
+    text += fmt::format("  jumps      {} of the pose source; map started again {} times\n",
+                        tally.pose_jumps, restarts);
+  }
+  if (tally.stale_alarms > 0)
+    text += fmt::format("  alarm      the tracker fell silent {} times\n", tally.stale_alarms);
+  return text;
+}
+
+nlohmann::ordered_json refused_json(const FrameTally& tally) {
+  auto json = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < kPoseRefusalNames.size(); ++i) {
+    if (tally.poses_refused_by[i] > 0)
+      json[std::string(kPoseRefusalNames[i])] = tally.poses_refused_by[i];
+  }
+  return json;
+}
+
 std::string dropped_text(const std::map<std::string, std::size_t>& dropped) {
   if (dropped.empty()) return "  dropped    none\n";
   std::size_t sum = 0;
@@ -83,9 +116,7 @@ std::string summary_text(const MappingSummary& s) {
                       s.integrated(), s.elapsed_s, rate(s.integrated(), s.elapsed_s),
                       rate(s.integrated(), mapper_s));
   text += dropped_text(s.dropped());
-  if (s.source_tally.poses_refused > 0) {
-    text += fmt::format("  poses      {} refused\n", s.source_tally.poses_refused);
-  }
+  text += poses_text(s.source_tally, s.restarts);
   text += latency_text(s.latency);
   text += fmt::format("  window     {}; {} blocks evicted, {} restored\n",
                       size_text(s.memory_bytes), s.blocks_evicted, s.blocks_restored);
@@ -103,6 +134,10 @@ std::string summary_json(const MappingSummary& s) {
       {"frames", s.integrated()},
       {"dropped", s.dropped()},
       {"poses_refused", s.source_tally.poses_refused},
+      {"poses_refused_by", refused_json(s.source_tally)},
+      {"pose_jumps", s.source_tally.pose_jumps},
+      {"stale_alarms", s.source_tally.stale_alarms},
+      {"restarts", s.restarts},
       {"elapsed_s", s.elapsed_s},
       {"fps", rate(s.integrated(), s.elapsed_s)},
       {"mapper_fps", rate(s.integrated(), seconds(s.latency.total()))},

@@ -34,6 +34,7 @@ struct MappingSummary {
   std::size_t blocks_evicted = 0;
   std::size_t blocks_restored = 0;
   std::size_t memory_bytes = 0;  ///< window and scratch
+  std::size_t restarts = 0;      ///< times the map was begun anew, after a jump of the poses
   bool was_interrupted = false;
   std::optional<SavedFile> file;  ///< absent until the map is saved
 

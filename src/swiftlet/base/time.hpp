@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <compare>
 #include <cstdint>
@@ -28,6 +29,26 @@ struct Stamp {
 /// Seconds between two stamps, for arithmetic and display; never to be stored as a time.
 [[nodiscard]] constexpr double seconds(Nanoseconds d) {
   return static_cast<double>(d.count()) * 1e-9;
+}
+
+/// Whose clock a stamp was read from. Stamps of different clocks cannot be compared.
+enum class ClockDomain : std::uint8_t {
+  kUnspecified,  ///< the source does not tell: taken to be the clock of whatever it is joined with
+  kGlobal,       ///< the device's clock, translated to that of the host (RealSense "Global Time")
+  kSystem,       ///< the host's clock at arrival, late by exposure and transfer
+  kDevice,       ///< the device's own, from its power-on: no other device shares it
+};
+inline constexpr std::array<std::string_view, 4> kClockDomainNames{
+    "unspecified clock", "global time", "system time", "the device's own clock"};
+
+[[nodiscard]] constexpr std::string_view name_of(ClockDomain clock) {
+  return kClockDomainNames[static_cast<std::size_t>(clock)];
+}
+
+/// Whether stamps of two devices can be compared.
+[[nodiscard]] constexpr bool is_same_clock(ClockDomain a, ClockDomain b) {
+  if (a == ClockDomain::kUnspecified || b == ClockDomain::kUnspecified) return true;
+  return a == b && a != ClockDomain::kDevice;
 }
 
 /// Reads "1305031102.175304" exactly (digits beyond nanoseconds are dropped), without passing

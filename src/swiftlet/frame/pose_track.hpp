@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <utility>
 
 #include "swiftlet/base/frame_of.hpp"
 #include "swiftlet/base/time.hpp"
@@ -29,6 +30,20 @@ enum class PoseMiss : std::uint8_t {
   kBeforeFirst,  ///< the time lies before the oldest pose that is remembered
   kAfterLast,    ///< the pose has not come yet; the track never extrapolates
   kGapTooLong,   ///< the bracketing poses lie further apart than max_gap
+  kAcrossJump,   ///< the pose source has jumped between the bracketing poses
+};
+
+/// Where a pose stands in the history of its source. Poses of different segments are never
+/// interpolated; those of different epochs do not share a world (see Frame::pose_epoch).
+struct PoseMark {
+  std::uint32_t segment = 0;
+  std::uint32_t epoch = 0;
+};
+
+/// What a track answers.
+struct TrackedPose {
+  Transform<World, Body> T_world_body;
+  PoseMark mark;
 };
 
 /// The recent path of the body: interpolates its pose at any time between two poses that it has
@@ -48,10 +63,15 @@ class PoseTrack {
 
   /// Offers one raw pose; refused ones are counted. Cost: O(1) in order, O(capacity) out of order.
   PoseIntake push(Stamp stamp, const Eigen::Quaterniond& R_world_body,
-                  const Eigen::Vector3d& t_world_body_m);
+                  const Eigen::Vector3d& t_world_body_m, PoseMark mark = {});
 
   /// Pose of the body at a time. Never extrapolates.
   [[nodiscard]] tl::expected<Transform<World, Body>, PoseMiss> at(Stamp stamp) const;
+  /// The same, with its place in the history.
+  [[nodiscard]] tl::expected<TrackedPose, PoseMiss> find(Stamp stamp) const;
+  /// The nearer of the two poses that bracket a time, as it is: only to show what interpolation is
+  /// worth. Misses like find().
+  [[nodiscard]] tl::expected<TrackedPose, PoseMiss> nearest(Stamp stamp) const;
 
   [[nodiscard]] std::size_t size() const { return poses_.size(); }
   [[nodiscard]] std::size_t count(PoseIntake kind) const {
@@ -63,9 +83,11 @@ class PoseTrack {
  private:
   struct Pose {
     Stamp stamp;
-    Transform<World, Body> T_world_body;
+    TrackedPose pose;
   };
-  PoseIntake insert(Stamp stamp, const Transform<World, Body>& T_world_body);
+  using Bracket = std::pair<const Pose*, const Pose*>;  // twice the same at a pose itself
+  PoseIntake insert(Stamp stamp, const TrackedPose& pose);
+  [[nodiscard]] tl::expected<Bracket, PoseMiss> bracket(Stamp stamp) const;
 
   Options options_;
   std::deque<Pose> poses_;  // ascending stamps, all different

@@ -61,7 +61,9 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   }
   update.shift = map_.recentre(frame.T_world_camera.translation(), archive_);
   timer.finish(Stage::kRecentre);
-  const StereoSensor sensor(frame.intrinsics, config_.sensor, map_.voxel_m(), depth.ratio);
+  SensorOptions instrument = config_.sensor;
+  if (frame.baseline_m > 0.0) instrument.baseline_m = frame.baseline_m;
+  const StereoSensor sensor(frame.intrinsics, instrument, map_.voxel_m(), depth.ratio);
   update.tally = integrator_->integrate(
       {depth, frame.intrinsics, frame.T_world_camera, frame_count_}, sensor, map_);
   ++frame_count_;

@@ -90,6 +90,18 @@ Eigen::Vector3d YamlSection::vector(std::string_view key,
           scalar(node[2], key, kAnyNumber)};
 }
 
+std::vector<double> YamlSection::numbers(std::string_view key, std::size_t count) {
+  const YAML::Node node = require(key, false);
+  std::vector<double> values(count, 0.0);
+  if (node.Type() == YAML::NodeType::Undefined) return values;
+  if (!node.IsSequence() || node.size() != count) {
+    problem_->add(node.Mark(), fmt::format("'{}' of {} must be {} numbers", key, title_, count));
+    return values;
+  }
+  for (std::size_t i = 0; i < count; ++i) values[i] = scalar(node[i], key, kAnyNumber);
+  return values;
+}
+
 std::string YamlSection::text(std::string_view key, const std::optional<std::string>& fallback) {
   const YAML::Node node = require(key, fallback.has_value());
   if (node.Type() == YAML::NodeType::Undefined) return fallback.value_or("");

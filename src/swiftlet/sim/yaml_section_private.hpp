@@ -48,6 +48,8 @@ class YamlSection {
                               std::optional<double> fallback = std::nullopt);
   [[nodiscard]] Eigen::Vector3d vector(
       std::string_view key, const std::optional<Eigen::Vector3d>& fallback = std::nullopt);
+  /// A list of exactly so many numbers.
+  [[nodiscard]] std::vector<double> numbers(std::string_view key, std::size_t count);
   [[nodiscard]] std::string text(std::string_view key,
                                  const std::optional<std::string>& fallback = std::nullopt);
   [[nodiscard]] std::optional<YamlSection> section(std::string_view key);

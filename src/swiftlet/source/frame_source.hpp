@@ -13,24 +13,33 @@
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/frame/frame.hpp"
+#include "swiftlet/frame/trusted_poses.hpp"
 
 namespace swiftlet {
 
 /// Why a source could not turn a depth image into a Frame.
 enum class FrameLoss : std::uint8_t {
-  kNoPose,       ///< no pose brackets its time: before the first, after the last, or none at all
-  kPoseGap,      ///< the bracketing poses lie too far apart to interpolate between
-  kPoseRefused,  ///< its pose is not finite, not unit, or not trusted by the tracker
-  kOutOfOrder,   ///< its time is not after that of the image before it
+  kNoPose,         ///< no pose brackets its time: before the first, after the last, or none at all
+  kPoseGap,        ///< the bracketing poses lie too far apart to interpolate between
+  kPoseRefused,    ///< its pose is not finite, not unit, or not trusted by the tracker
+  kOutOfOrder,     ///< its time is not after that of the image before it
+  kPoseJump,       ///< the pose source has jumped at its time
+  kPoseStale,      ///< the tracker had been silent for too long
+  kClockMismatch,  ///< stamped by another clock than the poses
+  kOverload,       ///< it came while the mapper was busy with others (real time only)
 };
-inline constexpr std::array<std::string_view, 4> kFrameLossNames{"no_pose", "pose_gap",
-                                                                 "pose_refused", "out_of_order"};
+inline constexpr std::array<std::string_view, 8> kFrameLossNames{
+    "no_pose",   "pose_gap",   "pose_refused",   "out_of_order",
+    "pose_jump", "pose_stale", "clock_mismatch", "overload"};
 
 /// Frames that came out of a source, and those that did not, by reason.
 struct FrameTally {
   std::size_t delivered = 0;
   std::array<std::size_t, kFrameLossNames.size()> lost{};
   std::size_t poses_refused = 0;  ///< pose samples (not frames) that were refused
+  std::array<std::size_t, kPoseRefusalNames.size()> poses_refused_by{};
+  std::size_t pose_jumps = 0;    ///< times the pose source corrected itself at once
+  std::size_t stale_alarms = 0;  ///< times the tracker fell silent while images came
 
   std::size_t& of(FrameLoss loss) { return lost[static_cast<std::size_t>(loss)]; }
 };
@@ -50,9 +59,9 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The next frame, later than every one before; nullopt at the end. Frames without a trustworthy
-  /// pose are skipped and counted. Errors: kCorruptInput, kIo, with file and line; the source is
-  /// then at its end.
+  /// The next frame, later than every one before, or of the same time by a camera of a higher
+  /// number; nullopt at the end. Frames without a trustworthy pose are skipped and counted. Errors:
+  /// kCorruptInput, kIo, with file and line; the source is then at its end.
   [[nodiscard]] virtual Expected<std::optional<Frame>> next() = 0;
 
   [[nodiscard]] virtual const SourceInfo& info() const = 0;

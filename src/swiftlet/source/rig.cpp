@@ -3,56 +3,125 @@
 
 #include "swiftlet/source/rig.hpp"
 
+#include <algorithm>
+#include <numeric>
 #include <utility>
 
-namespace swiftlet {
-namespace {
+#include "swiftlet/base/contract.hpp"
 
-FrameLoss loss_for(PoseMiss miss) {
-  return miss == PoseMiss::kGapTooLong ? FrameLoss::kPoseGap : FrameLoss::kNoPose;
+namespace swiftlet {
+
+Rig::Rig(const Options& options)
+    : options_(options),
+      poses_(options.poses),
+      last_stamp_(options.cameras.size()),
+      masks_(options.cameras.size()) {
+  SWIFTLET_REQUIRE(!options.cameras.empty() && options.cameras.size() <= kMaxCameras,
+                   "a rig has 1 to 8 cameras");
 }
 
-}  // namespace
-
-Rig::Rig(const Options& options) : options_(options), track_(options.track) {}
-
 void Rig::push(const PoseSample& pose) {
-  const bool is_trusted = pose.confidence >= options_.min_confidence;
-  const bool is_usable = is_trusted && track_.push(pose.stamp, pose.R_world_body,
-                                                   pose.t_world_body_m) == PoseIntake::kAdded;
-  if (!is_usable) ++tally_.poses_refused;
+  poses_.push(pose);
+  tally_.poses_refused_by = poses_.refused();
+  tally_.poses_refused =
+      std::accumulate(poses_.refused().begin(), poses_.refused().end(), std::size_t{0});
+  tally_.pose_jumps = poses_.jumps();
+  watch_staleness();
 }
 
 void Rig::push(DepthFrame depth) {
-  if (last_depth_stamp_ && depth.stamp <= *last_depth_stamp_) {
+  SWIFTLET_REQUIRE(depth.camera < options_.cameras.size(), "the rig has no such camera");
+  std::optional<Stamp>& last = last_stamp_[depth.camera];
+  const bool is_late = last_decided_ && order_of(depth) <= *last_decided_;
+  if ((last && depth.stamp <= *last) || is_late) {
     ++tally_.of(FrameLoss::kOutOfOrder);
     return;
   }
-  last_depth_stamp_ = depth.stamp;
-  if (waiting_.size() == options_.max_waiting) {
-    ++tally_.of(FrameLoss::kNoPose);
+  last = depth.stamp;
+  newest_depth_ = newest_depth_ ? std::max(*newest_depth_, depth.stamp) : depth.stamp;
+  watch_staleness();
+  if (waiting_.size() == options_.max_waiting * options_.cameras.size()) {
+    ++tally_.of(is_stale_ ? FrameLoss::kPoseStale : FrameLoss::kNoPose);
+    last_decided_ = order_of(waiting_.front());
     waiting_.pop_front();
   }
-  waiting_.push_back(std::move(depth));
+  const auto place = std::ranges::upper_bound(waiting_, order_of(depth), {}, order_of);
+  waiting_.insert(place, std::move(depth));
+}
+
+/// Counts each time the tracker falls silent, and notices when it is back.
+void Rig::watch_staleness() {
+  if (!newest_depth_ || !poses_.newest()) return;
+  const bool is_stale = *newest_depth_ - *poses_.newest() > options_.stale_after;
+  if (is_stale && !is_stale_) ++tally_.stale_alarms;
+  is_stale_ = is_stale;
+}
+
+Stamp Rig::pose_time(const DepthFrame& depth) const {
+  return depth.stamp + options_.cameras[depth.camera].pose_offset;
+}
+
+/// Whether no image of that time or before can still arrive.
+bool Rig::is_settled(Stamp stamp) const {
+  if (is_finished_ || *newest_depth_ - stamp >= options_.reorder_window) return true;
+  return std::ranges::all_of(last_stamp_, [&](const auto& last) { return last && *last >= stamp; });
+}
+
+/// Why an image has no pose; nullopt while it may still get one.
+std::optional<FrameLoss> Rig::loss_of(const DepthFrame& depth, PoseMiss miss) const {
+  switch (miss) {
+    case PoseMiss::kGapTooLong:
+      return FrameLoss::kPoseGap;
+    case PoseMiss::kAcrossJump:
+      return FrameLoss::kPoseJump;
+    case PoseMiss::kBeforeFirst:
+      return FrameLoss::kNoPose;
+    case PoseMiss::kEmpty:
+    case PoseMiss::kAfterLast:
+      break;
+  }
+  if (!is_finished_) return std::nullopt;
+  const auto newest = poses_.newest();
+  const bool is_silent = newest && pose_time(depth) - *newest > options_.stale_after;
+  return is_silent ? FrameLoss::kPoseStale : FrameLoss::kNoPose;
+}
+
+Frame Rig::posed(DepthFrame depth, const TrackedPose& pose) {
+  const RigCamera& camera = options_.cameras[depth.camera];
+  if (options_.body_box) {
+    std::optional<BodyBoxMask>& mask = masks_[depth.camera];
+    if (!mask || !(mask->intrinsics() == depth.intrinsics))
+      mask.emplace(*options_.body_box, camera.T_body_camera, depth.intrinsics);
+    mask->clear(depth.depth);
+  }
+  return Frame{depth.stamp,      std::move(depth.depth),
+               depth.intrinsics, pose.T_world_body * camera.T_body_camera,
+               depth.camera,     pose.mark.epoch,
+               camera.baseline_m};
 }
 
 std::optional<Frame> Rig::pop() {
-  while (!waiting_.empty()) {
-    const auto T_world_body = track_.at(waiting_.front().stamp);
-    const bool may_still_come =
-        !T_world_body && !is_finished_ &&
-        (T_world_body.error() == PoseMiss::kEmpty || T_world_body.error() == PoseMiss::kAfterLast);
-    if (may_still_come) return std::nullopt;
-
+  while (!waiting_.empty() && is_settled(waiting_.front().stamp)) {
+    const DepthFrame& front = waiting_.front();
+    const Stamp time = pose_time(front);
+    const auto pose = options_.pairing == PosePairing::kInterpolate ? poses_.track().find(time)
+                                                                    : poses_.track().nearest(time);
+    std::optional<FrameLoss> loss;
+    if (!is_same_clock(front.clock, poses_.clock())) {
+      loss = FrameLoss::kClockMismatch;
+    } else if (!pose) {
+      loss = loss_of(front, pose.error());
+      if (!loss) return std::nullopt;
+    }
     DepthFrame depth = std::move(waiting_.front());
     waiting_.pop_front();
-    if (!T_world_body) {
-      ++tally_.of(loss_for(T_world_body.error()));
+    last_decided_ = order_of(depth);
+    if (loss) {
+      ++tally_.of(*loss);
       continue;
     }
     ++tally_.delivered;
-    return Frame{depth.stamp, std::move(depth.depth), depth.intrinsics,
-                 *T_world_body * options_.T_body_camera};
+    return posed(std::move(depth), *pose);
   }
   return std::nullopt;
 }

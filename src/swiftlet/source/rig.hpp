@@ -3,58 +3,107 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "swiftlet/frame/frame.hpp"
-#include "swiftlet/frame/pose_track.hpp"
+#include "swiftlet/frame/trusted_poses.hpp"
+#include "swiftlet/source/body_box.hpp"
 #include "swiftlet/source/frame_source.hpp"
 
 namespace swiftlet {
 
-/// One reading of a tracking camera or other pose source, already in our axes.
-struct PoseSample {
-  Stamp stamp;
-  Eigen::Quaterniond R_world_body;
-  Eigen::Vector3d t_world_body_m;
-  std::uint8_t confidence = 3;  ///< T265 scale: 0 failed, 1 low, 2 medium, 3 high
+inline constexpr std::size_t kMaxCameras = 8;
+
+/// One depth camera of a rig.
+struct RigCamera {
+  std::string name = "depth";
+  Transform<Body, Camera> T_body_camera{};  ///< the mount (extrinsics)
+  /// A pose that belongs to an image of time t is stamped t + pose_offset.
+  Nanoseconds pose_offset{0};
+  double baseline_m = 0.0;  ///< of its stereo pair; 0: as the mapper is configured
+  std::string stream{};     ///< topic, serial number or folder that it comes from; empty: found
 };
 
-/// Joins a stream of depth images with a stream of poses into posed frames: the one path that
-/// simulated, recorded and live rigs share. Depth images wait until a pose at or after their time
-/// has come, then get the pose interpolated at their own time and the rigid mount of the camera.
+/// How an image gets its pose.
+enum class PosePairing : std::uint8_t {
+  kInterpolate,
+  kNearest,  ///< the nearest pose as it is: only to show what interpolation is worth
+};
+
+/// What a rig consists of and what it may believe.
+struct RigOptions {
+  std::vector<RigCamera> cameras{RigCamera{}};  ///< 1 .. kMaxCameras
+  TrustedPoses::Options poses{};
+  PosePairing pairing = PosePairing::kInterpolate;
+  std::optional<BodyBox> body_box{};
+  std::size_t max_waiting = 8;  ///< depth images a camera that may wait for their pose
+  /// No image arrives after one that is stamped this much later.
+  Nanoseconds reorder_window = std::chrono::milliseconds(40);
+  /// The tracker is silent when images are this much ahead of its newest pose.
+  Nanoseconds stale_after = std::chrono::milliseconds(500);
+};
+
+/// Joins the depth images of one to eight cameras with a stream of poses into posed frames: the one
+/// path that simulated, recorded and live rigs share. An image waits until a pose at or after its
+/// time has come, and until no other camera can deliver an earlier one; then it gets the pose
+/// interpolated at its own time and the mount of its camera.
 ///
-/// Memory: PoseTrack's capacity and at most `max_waiting` depth images; the oldest waiting one is
-/// lost (counted).
+/// Order: frames come out by time, those of one time by camera, however the cameras' images were
+/// mixed on arrival within `reorder_window`. So the same recording gives the same map.
+/// Memory: PoseTrack's capacity and at most `max_waiting` images a camera; the oldest waiting one
+/// is lost (counted). Thread safety: none, one owner.
 class Rig {
  public:
-  struct Options {
-    Transform<Body, Camera> T_body_camera{};  ///< the mount (extrinsics)
-    PoseTrack::Options track{};
-    std::uint8_t min_confidence = 1;  ///< poses below are refused
-    std::size_t max_waiting = 8;      ///< depth images that may wait for their pose
-  };
+  using Options = RigOptions;
 
+  /// REQUIRES: 1 to kMaxCameras cameras.
   explicit Rig(const Options& options);
 
   void push(const PoseSample& pose);
-  /// Depth images come in time order; one that does not is lost (counted).
+  /// The pose source was switched off and on: a new epoch begins with its next pose.
+  void start_poses_anew() { poses_.start_anew(); }
+  /// The images of one camera come in time order; one that does not is lost (counted).
+  /// REQUIRES: depth.camera is one of the rig's.
   void push(DepthFrame depth);
-  /// No more poses will come: what still waits is decided now.
+  /// Nothing more will come: what still waits is decided now.
   void finish() { is_finished_ = true; }
 
   /// The oldest depth image whose pose is known by now; nullopt if none is ready.
   [[nodiscard]] std::optional<Frame> pop();
 
   [[nodiscard]] const FrameTally& tally() const { return tally_; }
+  /// Alarm: images come, but the tracker has said nothing for `stale_after`.
+  [[nodiscard]] bool is_pose_stale() const { return is_stale_; }
+  [[nodiscard]] ClockDomain pose_clock() const { return poses_.clock(); }
+  [[nodiscard]] const Options& options() const { return options_; }
 
  private:
+  struct Order {
+    Stamp stamp;
+    std::uint8_t camera;
+    friend auto operator<=>(const Order&, const Order&) = default;
+  };
+  static Order order_of(const DepthFrame& depth) { return {depth.stamp, depth.camera}; }
+  [[nodiscard]] Stamp pose_time(const DepthFrame& depth) const;
+  [[nodiscard]] bool is_settled(Stamp stamp) const;
+  [[nodiscard]] std::optional<FrameLoss> loss_of(const DepthFrame& depth, PoseMiss miss) const;
+  [[nodiscard]] Frame posed(DepthFrame depth, const TrackedPose& pose);
+  void watch_staleness();
+
   Options options_;
-  PoseTrack track_;
-  std::deque<DepthFrame> waiting_;  // ascending stamps, all different
-  std::optional<Stamp> last_depth_stamp_;
+  TrustedPoses poses_;
+  std::deque<DepthFrame> waiting_;                 // in Order, all different
+  std::vector<std::optional<Stamp>> last_stamp_;   // by camera
+  std::vector<std::optional<BodyBoxMask>> masks_;  // by camera
+  std::optional<Order> last_decided_;
+  std::optional<Stamp> newest_depth_;
   FrameTally tally_;
+  bool is_stale_ = false;
   bool is_finished_ = false;
 };
 

@@ -8,65 +8,42 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <optional>
+#include <random>
 #include <utility>
+#include <vector>
 
+#include "swiftlet/base/narrow.hpp"
+#include "swiftlet/base/voxel_index.hpp"
+#include "swiftlet/sim/pose_faults.hpp"
 #include "swiftlet/sim/ray_caster.hpp"
 #include "swiftlet/sim/scene_file.hpp"
 #include "swiftlet/sim/stereo_camera.hpp"
 #include "swiftlet/sim/tracker.hpp"
 #include "swiftlet/source/rig.hpp"
+#include "swiftlet/source/sim_options.hpp"
 #include "swiftlet/source/t265_axes.hpp"
 
 namespace swiftlet {
 namespace {
 
-constexpr std::uint8_t kMediumConfidence = 2;  // Intel: below it, a T265 may have lost its way
-
-struct SimOptions {
-  std::optional<std::uint64_t> seed;
-  bool has_noise = true;
-  Nanoseconds start{0};
-  std::optional<std::size_t> frames;
-};
-
-template <class Number>
-std::optional<Number> whole_number(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-/// Applies one "key=value"; false if it cannot be meant.
-bool apply(std::string_view key, std::string_view value, SimOptions& options) {
-  if (key == "seed") return (options.seed = whole_number<std::uint64_t>(value)).has_value();
-  if (key == "frames") return (options.frames = whole_number<std::size_t>(value)).has_value();
-  if (key == "noise") {
-    options.has_noise = value == "on";
-    return value == "on" || value == "off";
+/// The scene's camera, and others like it, evenly around the body.
+void place_cameras(const sim::Scene& scene, std::size_t count, RigOptions& rig) {
+  const RigCamera first = rig.cameras.front();
+  rig.cameras.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double yaw_rad =
+        2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
+    const auto turn = Transform<Body, Body>::trusted(sim::rotation_from_ypr(yaw_rad, 0.0, 0.0),
+                                                     Eigen::Vector3d::Zero());
+    RigCamera camera = first;
+    camera.name = fmt::format("camera{}", i);
+    camera.T_body_camera = i == 0 ? scene.T_body_camera : turn * scene.T_body_camera;
+    rig.cameras.push_back(std::move(camera));
   }
-  const auto start = parse_stamp(value);
-  if (key != "start" || !start || start->ns < 0) return false;
-  options.start = Nanoseconds(start->ns);
-  return true;
-}
-
-Expected<SimOptions> parse_options(std::string_view query) {
-  SimOptions options;
-  while (!query.empty()) {
-    const std::string_view pair = query.substr(0, query.find('&'));
-    query.remove_prefix(std::min(query.size(), pair.size() + 1));
-    const std::size_t equals = std::min(pair.find('='), pair.size());
-    const std::string_view value = pair.substr(std::min(equals + 1, pair.size()));
-    if (!apply(pair.substr(0, equals), value, options)) {
-      return fail(ErrorCode::kUsage, "sim", fmt::format("the option '{}' cannot be meant", pair),
-                  "known are: seed=N, noise=on|off, start=SECONDS, frames=N");
-    }
-  }
-  return options;
 }
 
 void make_ideal(sim::Scene& scene) {
@@ -81,19 +58,30 @@ void make_ideal(sim::Scene& scene) {
                    .jump = std::nullopt};
 }
 
-/// The instruments' clocks start at 0 when the rig is switched on.
+/// The scene with its instruments, as one rig has them.
+struct SimWorld {
+  sim::Scene scene;
+  sim::RayCaster world;
+  std::vector<sim::StereoCamera> cameras;
+  sim::PoseFaults faults;
+};
+
+/// The instruments' clocks start at 0 when the rig is switched on. Cameras run at the same rate,
+/// one after the other.
 class SimSource final : public FrameSource {
  public:
-  SimSource(SourceInfo info, const sim::Scene& scene, Nanoseconds start, sim::RayCaster world,
-            sim::StereoCamera camera)
+  SimSource(SourceInfo info, SimWorld sim, const SimOptions& options)
       : info_(std::move(info)),
-        rate_hz_(scene.camera.rate_hz),
-        start_(start),
-        flight_(scene.flight),
-        world_(std::move(world)),
-        camera_(std::move(camera)),
-        tracker_(scene.tracker, scene.seed, scene.flight, scene.T_body_camera, start),
-        rig_({.T_body_camera = scene.T_body_camera, .min_confidence = kMediumConfidence}) {}
+        sim_(std::move(sim)),
+        start_(options.start),
+        shuffle_(options.shuffle),
+        tracker_({sim_.scene.tracker, sim_.scene.seed, sim_.scene.flight, sim_.scene.T_body_camera,
+                  options.start},
+                 sim_.faults, sim_.scene.seed),
+        rig_(options.rig) {
+    for (const RigCamera& camera : options.rig.cameras)
+      T_flown_camera_.push_back(sim_.scene.T_body_camera.inverse() * camera.T_body_camera);
+  }
 
   Expected<std::optional<Frame>> next() override {
     while (true) {
@@ -106,60 +94,115 @@ class SimSource final : public FrameSource {
   const FrameTally& tally() const override { return rig_.tally(); }
 
  private:
-  [[nodiscard]] Stamp image_stamp() const {
-    return {std::llround(static_cast<double>(images_) * 1e9 / rate_hz_)};
+  /// The n-th image to arrive.
+  struct Shot {
+    std::uint64_t number;  // of its camera
+    std::size_t camera;
+    Stamp stamp;
+    Stamp arrival;
+  };
+  [[nodiscard]] Stamp tick(std::size_t n) const {
+    const double rate_hz = sim_.scene.camera.rate_hz * static_cast<double>(sim_.cameras.size());
+    return {std::llround(static_cast<double>(n) * 1e9 / rate_hz)};
+  }
+  [[nodiscard]] Shot shot(std::size_t n) const {
+    const std::size_t count = sim_.cameras.size();
+    const std::size_t period = n / count;
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (shuffle_) {
+      std::mt19937_64 random(mix_bits(*shuffle_ + period));
+      std::ranges::shuffle(order, random);
+    }
+    const std::size_t camera = order[n % count];
+    return {period, camera, tick(period * count + camera), tick(n)};
   }
 
   /// Lets whichever instrument comes next in time deliver one reading.
   void advance() {
-    const bool has_image = images_ < *info_.frame_count;
-    if (has_image && image_stamp() < tracker_.next_stamp()) {
-      take_image();
-    } else {
-      take_pose();
-      // The pose after the last image closes the bracket around it.
-      is_over_ = !has_image;
-      if (is_over_) rig_.finish();
+    const auto pose_arrival = tracker_.next_arrival();
+    if (images_ < *info_.frame_count) {
+      const Shot next = shot(images_);
+      if (pose_arrival && *pose_arrival <= next.arrival) return take_pose();
+      return take_image(next);
     }
+    // The first pose after the last image closes the bracket around it.
+    if (pose_arrival && newest_pose_ < newest_image_ + kLongestOffset) return take_pose();
+    rig_.finish();
+    is_over_ = true;
   }
 
-  void take_image() {
-    const Stamp stamp = image_stamp();
-    const Nanoseconds flown = start_ + Nanoseconds(stamp.ns);
-    world_.move_to(flown);
-    rig_.push(DepthFrame{stamp, camera_.capture(world_, flight_.camera_at(flown), images_),
-                         camera_.intrinsics()});
+  void take_image(const Shot& shot) {
+    const Nanoseconds flown = start_ + Nanoseconds(shot.stamp.ns);
+    sim_.world.move_to(flown);
+    auto T_world_camera = sim_.scene.flight.camera_at(flown);
+    if (shot.camera > 0 || sim_.cameras.size() > 1)
+      T_world_camera = T_world_camera * T_flown_camera_[shot.camera];
+    sim::StereoCamera& camera = sim_.cameras[shot.camera];
+    rig_.push(DepthFrame{shot.stamp, camera.capture(sim_.world, T_world_camera, shot.number),
+                         camera.intrinsics(), to<std::uint8_t>(shot.camera)});
+    newest_image_ = std::max(newest_image_, shot.stamp);
     ++images_;
   }
 
   void take_pose() {
     const sim::RawTrackerPose raw = tracker_.next();
+    newest_pose_ = std::max(newest_pose_, raw.stamp);
     PoseSample pose = from_t265(raw.stamp, raw.R_raw, raw.t_raw_m, raw.confidence);
-    const auto& T_scene_tracker = tracker_.T_scene_tracker();
+    const auto& T_scene_tracker = tracker_.tracker().T_scene_tracker();
     pose.R_world_body = T_scene_tracker.rotation() * pose.R_world_body;
     pose.t_world_body_m = T_scene_tracker * pose.t_world_body_m;
     rig_.push(pose);
   }
 
+  static constexpr Nanoseconds kLongestOffset = std::chrono::milliseconds(50);
+
   SourceInfo info_;
-  double rate_hz_;
+  SimWorld sim_;
   Nanoseconds start_;
-  sim::Flight flight_;
-  sim::RayCaster world_;
-  sim::StereoCamera camera_;
-  sim::Tracker tracker_;
+  std::optional<std::uint64_t> shuffle_;
+  std::vector<Transform<Camera, Camera>> T_flown_camera_;  // by camera: the scene's is flown
+  sim::FaultyTracker tracker_;
   Rig rig_;
   std::size_t images_ = 0;
+  Stamp newest_image_, newest_pose_;
   bool is_over_ = false;
 };
+
+/// Sets what goes wrong, if anything is asked to.
+Status apply_fault(const SimOptions& options, SimWorld& sim) {
+  if (!options.fault) return Done{};
+  auto fault = find_registered(sim::pose_faults(), *options.fault, "fault");
+  if (!fault) return forward_error(std::move(fault));
+  fault->make(options.fault_at, sim.scene.tracker, sim.faults);
+  return Done{};
+}
+
+Expected<SimWorld> build_world(sim::Scene scene, const SimOptions& options) {
+  auto world = sim::RayCaster::create(scene);
+  if (!world) return forward_error(std::move(world));
+  SimWorld sim{std::move(scene), std::move(*world), {}, {}};
+  for (std::size_t i = 0; i < options.rig.cameras.size(); ++i) {
+    sim::StereoOptions instrument = sim.scene.camera;
+    const double baseline_m = options.rig.cameras[i].baseline_m;
+    if (baseline_m > 0.0) instrument.baseline_m = baseline_m;
+    // Cameras of one rig have different noise.
+    auto camera = sim::StereoCamera::create(instrument, sim.scene.seed + 0x9E37 * i);
+    if (!camera) return forward_error(std::move(camera));
+    sim.cameras.push_back(std::move(*camera));
+  }
+  if (auto applied = apply_fault(options, sim); !applied) return forward_error(std::move(applied));
+  return sim;
+}
 
 }  // namespace
 
 Expected<FrameSourcePtr> open_sim_source(std::string_view rest) {
-  const std::size_t mark = std::min(rest.find('?'), rest.size());
-  auto options = parse_options(rest.substr(std::min(mark + 1, rest.size())));
+  auto address = parse_address(rest, "sim");
+  if (!address) return forward_error(std::move(address));
+  auto options = parse_sim_options(*address);
   if (!options) return forward_error(std::move(options));
-  auto scene = sim::load_scene(rest.substr(0, mark));
+  auto scene = sim::load_scene(address->place);
   if (!scene) return forward_error(std::move(scene));
   const Nanoseconds left = scene->flight.duration() - options->start;
   if (left < Nanoseconds(0)) {
@@ -168,17 +211,19 @@ Expected<FrameSourcePtr> open_sim_source(std::string_view rest) {
   }
   scene->seed = options->seed.value_or(scene->seed);
   if (!options->has_noise) make_ideal(*scene);
+  if (!options->rig_file) place_cameras(*scene, options->cameras, options->rig);
 
-  auto world = sim::RayCaster::create(*scene);
-  if (!world) return forward_error(std::move(world));
-  auto camera = sim::StereoCamera::create(scene->camera, scene->seed);
-  if (!camera) return forward_error(std::move(camera));
-
-  const auto images = static_cast<std::size_t>(seconds(left) * scene->camera.rate_hz + 1e-6) + 1;
+  const std::size_t cameras = options->rig.cameras.size();
+  // Within a period the images of several cameras may arrive in any order.
+  options->rig.reorder_window = std::max(
+      options->rig.reorder_window, Nanoseconds(std::llround(1.001e9 / scene->camera.rate_hz)));
+  const auto rounds = static_cast<std::size_t>(seconds(left) * scene->camera.rate_hz + 1e-6) + 1;
+  const std::size_t images = rounds * cameras;
   SourceInfo info{"sim:" + std::string(rest), "+y",
                   std::min(images, options->frames.value_or(images)), scene->camera.baseline_m};
-  return std::make_unique<SimSource>(std::move(info), *scene, options->start, *std::move(world),
-                                     *std::move(camera));
+  auto sim = build_world(std::move(*scene), *options);
+  if (!sim) return forward_error(std::move(sim));
+  return std::make_unique<SimSource>(std::move(info), std::move(*sim), *options);
 }
 
 }  // namespace swiftlet

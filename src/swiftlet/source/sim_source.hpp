@@ -15,6 +15,11 @@ namespace swiftlet {
 ///   noise=on|off   off: ideal instruments, trusted from the start (default: on)
 ///   start=SECONDS  switches the rig on that far into the flight (default: 0)
 ///   frames=N       at most N depth images (default: to the end of the flight)
+///   cameras=N      that many, evenly around the body, the first is the scene's (default: 1)
+///   shuffle=N      images of one period arrive in an order drawn from this seed
+///   fault=NAME     something goes wrong with the poses, see sim/pose_faults.cpp
+///   fault_at=SECONDS  when, where that matters (default: 5)
+/// and those of every rig: rig=FILE, pairing, on_jump, pose_offset_ms.
 ///
 /// Depth images and T265 samples come in time order and meet in a Rig, as those of a real rig
 /// would; frames before the tracker is sure of itself are lost and counted.

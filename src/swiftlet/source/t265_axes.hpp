@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "swiftlet/source/rig.hpp"
+#include "swiftlet/frame/pose_sample.hpp"
 
 namespace swiftlet {
 

@@ -78,7 +78,8 @@ class TumSource final : public FrameSource {
         images_(std::move(images)),
         poses_(std::move(poses)),
         camera_(camera),
-        rig_({.T_body_camera = forward_looking_camera()}) {
+        rig_({.cameras = {{.T_body_camera = forward_looking_camera()}},
+              .poses = {.track = {}, .gates = PoseGates::open()}}) {
     info_ = {.uri = "tum:" + std::string(folder),
              .native_up_axis = std::string(up_axis(kAxes)),
              .frame_count = images_.size(),

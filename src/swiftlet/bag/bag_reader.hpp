@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "swiftlet/bag/bag_record.hpp"
+#include "swiftlet/bag/byte_source.hpp"
+#include "swiftlet/base/expected.hpp"
+#include "swiftlet/base/time.hpp"
+
+namespace swiftlet {
+
+/// A topic as one publisher wrote it.
+struct BagConnection {
+  std::uint32_t id = 0;
+  std::string topic;
+  std::string type;  ///< as in "sensor_msgs/Image"
+  std::string md5;   ///< of the type's definition
+};
+
+/// A serialised message; its bytes stay until the next call of BagReader::next().
+struct BagMessage {
+  const BagConnection* connection;
+  Stamp record_time;  ///< when it was written; RealSense recordings count from 0
+  std::span<const std::byte> data;
+  std::uint64_t offset;  ///< of its chunk in the file, for messages about it
+};
+
+/// Reads a ROS bag (format 2.0) from its beginning to its end, without its index: recordings that
+/// were never closed can be read as far as they go.
+///
+/// Memory: one chunk packed and one unpacked, at most kMaxChunkBytes each, and the names of the
+/// topics. Nothing is allocated on the word of the file alone.
+/// Source: wiki.ros.org/Bags/Format/2.0.
+class BagReader {
+ public:
+  /// Errors: kUnsupported for another version of the format, kCorruptInput if it is no bag.
+  [[nodiscard]] static Expected<BagReader> open(ByteSourcePtr bytes);
+
+  /// The next message in the order of the file, which is that of writing; nullopt at the end.
+  /// Errors: kCorruptInput with the byte where it is wrong, kIo. The reader is then at its end.
+  [[nodiscard]] Expected<std::optional<BagMessage>> next();
+
+  /// All connections seen so far, by number.
+  [[nodiscard]] const std::map<std::uint32_t, BagConnection>& connections() const {
+    return connections_;
+  }
+  [[nodiscard]] std::uint64_t chunks_read() const { return chunks_; }
+  [[nodiscard]] const std::array<std::uint64_t, 3>& chunks_by_compression() const {
+    return by_compression_;
+  }
+  [[nodiscard]] const ByteSource& bytes() const { return *bytes_; }
+
+ private:
+  explicit BagReader(ByteSourcePtr bytes) : bytes_(std::move(bytes)) {}
+
+  /// The next record of the file whose data are not skipped.
+  struct FileRecord {
+    BagFields fields;
+    std::uint64_t offset;  ///< of the record
+    std::uint64_t data_offset;
+    std::uint32_t data_bytes;
+  };
+  [[nodiscard]] Expected<FileRecord> read_record();
+  [[nodiscard]] Expected<bool> read_chunk();  // false at the end of the file
+  [[nodiscard]] Status unpack(const FileRecord& record);
+  [[nodiscard]] Expected<std::optional<BagMessage>> next_in_chunk();
+  [[nodiscard]] Status add_connection(const BagFields& header, std::span<const std::byte> data,
+                                      std::uint64_t offset);
+  [[nodiscard]] tl::unexpected<Error> corrupt(std::uint64_t offset, std::string what);
+
+  ByteSourcePtr bytes_;
+  std::uint64_t position_ = 0;
+  std::uint64_t chunks_ = 0;
+  std::array<std::uint64_t, 3> by_compression_{};  // none, lz4, bz2
+  std::map<std::uint32_t, BagConnection> connections_;
+  std::vector<std::byte> header_, packed_, chunk_;
+  std::size_t chunk_position_ = 0;
+  std::uint64_t chunk_offset_ = 0;
+};
+
+}  // namespace swiftlet

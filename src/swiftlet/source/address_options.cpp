@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/source/address_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace swiftlet {
+
+Expected<SourceAddress> parse_address(std::string_view rest, std::string_view kind) {
+  const std::size_t mark = std::min(rest.find('?'), rest.size());
+  SourceAddress address{std::string(rest.substr(0, mark)), {}};
+  std::string_view query = rest.substr(std::min(mark + 1, rest.size()));
+  while (!query.empty()) {
+    const std::string_view pair = query.substr(0, query.find('&'));
+    query.remove_prefix(std::min(query.size(), pair.size() + 1));
+    const std::size_t equals = pair.find('=');
+    const std::string key(pair.substr(0, equals));
+    const bool is_new = std::ranges::none_of(
+        address.options, [&](const auto& option) { return option.first == key; });
+    if (equals == std::string_view::npos || !is_new) {
+      return fail(
+          ErrorCode::kUsage, std::string(kind),
+          fmt::format("the option '{}' {}", pair, is_new ? "has no value" : "was given before"),
+          "options are written ?key=value&key=value");
+    }
+    address.options.emplace_back(key, std::string(pair.substr(equals + 1)));
+  }
+  return address;
+}
+
+std::string with_option(std::string address, std::string_view key, std::string_view value) {
+  const char joint = address.find('?') == std::string::npos ? '?' : '&';
+  return fmt::format("{}{}{}={}", address, joint, key, value);
+}
+
+tl::unexpected<Error> bad_option(std::string_view kind, std::string_view key,
+                                 std::string_view value, std::string known) {
+  return fail(ErrorCode::kUsage, std::string(kind),
+              fmt::format("the option '{}={}' cannot be meant", key, value),
+              "known are: " + std::move(known));
+}
+
+}  // namespace swiftlet

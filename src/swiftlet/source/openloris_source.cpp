@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "swiftlet/source/address_options.hpp"
+#include "swiftlet/source/depth_png.hpp"
+#include "swiftlet/source/folder_camera.hpp"
+#include "swiftlet/source/joined_source.hpp"
+#include "swiftlet/source/openloris_calibration.hpp"
+#include "swiftlet/source/rig_options.hpp"
+#include "swiftlet/source/tum_lists.hpp"
+
+// OpenLORIS-Scene: a robot with a D435i and a T265 in homes, offices and markets. Its released
+// folders hold no pose stream of the T265, only the ground truth of the robot's base_link; a path
+// of your own odometry can take its place. Options: images=depth|aligned_depth, poses=FILE (lines
+// as in groundtruth.txt), and those of every rig. Source: Shi et al. 2020;
+// lifelong-robotic-vision/openloris-scene-tools.
+
+namespace swiftlet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kContent =
+    "depth.txt, groundtruth.txt, sensors.yaml, trans_matrix.yaml and the images they speak of";
+constexpr double kBaseline_m = 0.05;  // D435i
+
+class ListedDepth final : public DepthStream {
+ public:
+  ListedDepth(fs::path folder, std::vector<TumImage> images, const PinholeIntrinsics& intrinsics)
+      : folder_(std::move(folder)), images_(std::move(images)), intrinsics_(intrinsics) {}
+
+  Expected<std::optional<DepthFrame>> next() override {
+    if (next_ == images_.size()) return std::nullopt;
+    const TumImage& image = images_[next_++];
+    const fs::path file = folder_ / image.file;
+    auto depth = read_depth_png(file, {});
+    if (!depth) return forward_error(std::move(depth));
+    if (depth->raw.width() != intrinsics_.width() || depth->raw.height() != intrinsics_.height())
+      return fail(ErrorCode::kCorruptInput, file.string(),
+                  "the image has another size than sensors.yaml tells");
+    return DepthFrame{image.stamp, std::move(*depth), intrinsics_};
+  }
+
+ private:
+  fs::path folder_;
+  std::vector<TumImage> images_;
+  PinholeIntrinsics intrinsics_;
+  std::size_t next_ = 0;
+};
+
+class ListedPoses final : public PoseStream {
+ public:
+  explicit ListedPoses(std::vector<TumPose> poses) : poses_(std::move(poses)) {}
+
+  /// The file tells where base_link is, in a world with z up: ours.
+  Expected<std::optional<PoseSample>> next() override {
+    if (next_ == poses_.size()) return std::nullopt;
+    const TumPose& pose = poses_[next_++];
+    return PoseSample{pose.stamp, pose.T_native_camera.rotation(),
+                      pose.T_native_camera.translation()};
+  }
+
+ private:
+  std::vector<TumPose> poses_;
+  std::size_t next_ = 0;
+};
+
+/// The lists have the format of TUM's, but the folder is another.
+template <class List>
+Expected<List> of_this_kind(Expected<List> list) {
+  if (!list && list.error().code == ErrorCode::kNotFound)
+    list.error().remedy = fmt::format("the folder should hold {}", kContent);
+  return list;
+}
+
+struct Request {
+  std::string images = "depth";
+  std::string poses;  // empty: the ground truth
+  RigOptions rig;
+};
+
+Expected<Request> parse_request(const SourceAddress& address) {
+  Request request;
+  for (const auto& [key, value] : address.options) {
+    const bool is_images = key == "images" && (value == "depth" || value == "aligned_depth");
+    if (is_images) request.images = value;
+    if (key == "poses") request.poses = value;
+    const bool is_own = is_images || (key == "poses" && !value.empty());
+    if (!is_own && (key == "rig" || !apply_rig_option(key, value, request.rig)))
+      return bad_option("openloris", key, value,
+                        "images=depth|aligned_depth, poses=FILE, pairing, on_jump, pose_offset_ms");
+  }
+  const auto on_jump = request.rig.poses.gates.on_jump;
+  request.rig.poses.gates = request.poses.empty() ? PoseGates::open() : tracker_gates();
+  request.rig.poses.gates.on_jump = on_jump;
+  return request;
+}
+
+}  // namespace
+
+Expected<FrameSourcePtr> open_openloris_source(std::string_view rest) {
+  auto address = parse_address(rest, "openloris");
+  if (!address) return forward_error(std::move(address));
+  auto request = parse_request(*address);
+  if (!request) return forward_error(std::move(request));
+  const fs::path folder(address->place);
+  if (auto usable = check_folder(folder, kContent); !usable)
+    return forward_error(std::move(usable));
+
+  const bool is_aligned = request->images == "aligned_depth";  // to the colour camera
+  auto camera = read_openloris_camera(
+      folder, is_aligned ? "d400_color_optical_frame" : "d400_depth_optical_frame");
+  if (!camera) return forward_error(std::move(camera));
+  auto images = of_this_kind(read_tum_images(folder / (request->images + ".txt")));
+  if (!images) return forward_error(std::move(images));
+  auto poses = of_this_kind(read_tum_poses(request->poses.empty() ? folder / "groundtruth.txt"
+                                                                  : fs::path(request->poses)));
+  if (!poses) return forward_error(std::move(poses));
+
+  request->rig.cameras.front().T_body_camera = camera->T_body_camera;
+  SourceInfo info{"openloris:" + std::string(rest), "+z", images->size(), kBaseline_m};
+  std::vector<DepthStreamPtr> streams;
+  streams.push_back(std::make_unique<ListedDepth>(folder, std::move(*images), camera->intrinsics));
+  return std::make_unique<JoinedSource>(std::move(info), std::move(streams),
+                                        std::make_unique<ListedPoses>(std::move(*poses)),
+                                        request->rig);
+}
+
+}  // namespace swiftlet

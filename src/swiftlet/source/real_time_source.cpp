@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/source/real_time_source.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "swiftlet/base/contract.hpp"
+
+namespace swiftlet {
+namespace {
+
+class RealTimeSource final : public FrameSource {
+ public:
+  RealTimeSource(FrameSourcePtr source, const QueuePolicy& policy)
+      : source_(std::move(source)), info_(source_->info()), policy_(policy) {
+    player_ = std::thread([this] { play(); });
+  }
+  RealTimeSource(const RealTimeSource&) = delete;
+  RealTimeSource& operator=(const RealTimeSource&) = delete;
+  ~RealTimeSource() override {
+    {
+      const std::lock_guard lock(mutex_);
+      is_stopped_ = true;
+    }
+    changed_.notify_all();
+    player_.join();
+  }
+
+  /// Waits for the next frame.
+  Expected<std::optional<Frame>> next() override {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !queue_.empty() || is_played_; });
+    tally_ = source_tally_;
+    tally_.of(FrameLoss::kOverload) += overloaded_;
+    if (!queue_.empty()) {
+      Frame frame = std::move(queue_.front());
+      queue_.pop_front();
+      tally_.delivered = ++delivered_;
+      return frame;
+    }
+    tally_.delivered = delivered_;
+    if (fault_) return tl::make_unexpected(*std::exchange(fault_, std::nullopt));
+    return std::nullopt;
+  }
+
+  const SourceInfo& info() const override { return info_; }
+  const FrameTally& tally() const override { return tally_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void play() {
+    std::optional<Stamp> first;
+    Clock::time_point start;
+    while (true) {
+      auto frame = source_->next();
+      if (!frame || !*frame) return finish(std::move(frame));
+      if (!first) {
+        first = (*frame)->stamp;
+        start = Clock::now();
+      }
+      const double due_s = seconds((*frame)->stamp - *first) / policy_.speed;
+      const auto due =
+          start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
+      if (!deliver(std::move(**frame), due)) return;
+    }
+  }
+
+  /// false if nobody wants it any more.
+  bool deliver(Frame frame, Clock::time_point due) {
+    std::unique_lock lock(mutex_);
+    if (changed_.wait_until(lock, due, [this] { return is_stopped_; })) return false;
+    if (queue_.size() == policy_.capacity) {
+      queue_.pop_front();
+      ++overloaded_;
+    }
+    queue_.push_back(std::move(frame));
+    source_tally_ = source_->tally();
+    changed_.notify_all();
+    return true;
+  }
+
+  void finish(Expected<std::optional<Frame>>&& end) {
+    const std::lock_guard lock(mutex_);
+    if (!end) fault_ = std::move(end).error();
+    source_tally_ = source_->tally();
+    is_played_ = true;
+    changed_.notify_all();
+  }
+
+  FrameSourcePtr source_;  // the player's
+  const SourceInfo info_;
+  const QueuePolicy policy_;
+  FrameTally tally_;  // the reader's
+  std::size_t delivered_ = 0;
+
+  std::mutex mutex_;  // of all that follows
+  std::condition_variable changed_;
+  std::deque<Frame> queue_;
+  FrameTally source_tally_;
+  std::size_t overloaded_ = 0;
+  std::optional<Error> fault_;
+  bool is_played_ = false;
+  bool is_stopped_ = false;
+
+  std::thread player_;
+};
+
+}  // namespace
+
+FrameSourcePtr play_in_real_time(FrameSourcePtr source, const QueuePolicy& policy) {
+  SWIFTLET_REQUIRE(source != nullptr && policy.capacity >= 1 && policy.speed > 0.0,
+                   "a queue holds a frame, and time goes on");
+  return std::make_unique<RealTimeSource>(std::move(source), policy);
+}
+
+}  // namespace swiftlet

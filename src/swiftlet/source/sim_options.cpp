@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/source/sim_options.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <utility>
+
+#include "swiftlet/source/rig_options.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr std::string_view kOwnOptions =
+    "seed=N, noise=on|off, start=SECONDS, frames=N, cameras=1..8, shuffle=N, fault=NAME, "
+    "fault_at=SECONDS";
+
+template <class Number>
+std::optional<Number> whole_number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// A time since the start; false if it cannot be meant.
+bool apply_time(std::string_view value, Stamp& out) {
+  const auto time = parse_stamp(value);
+  if (time) out = *time;
+  return time && time->ns >= 0;
+}
+
+/// Applies one "key=value"; false if it cannot be meant.
+bool apply(std::string_view key, std::string_view value, SimOptions& options) {
+  if (key == "seed") return (options.seed = whole_number<std::uint64_t>(value)).has_value();
+  if (key == "frames") return (options.frames = whole_number<std::size_t>(value)).has_value();
+  if (key == "shuffle") return (options.shuffle = whole_number<std::uint64_t>(value)).has_value();
+  if (key == "fault") return !(options.fault = value)->empty();
+  if (key == "fault_at") return apply_time(value, options.fault_at);
+  if (key == "noise") {
+    options.has_noise = value == "on";
+    return value == "on" || value == "off";
+  }
+  if (key == "cameras") {
+    options.cameras = whole_number<std::size_t>(value).value_or(0);
+    return options.cameras >= 1 && options.cameras <= kMaxCameras;
+  }
+  if (key == "start") {
+    Stamp start;
+    const bool is_meant = apply_time(value, start);
+    options.start = Nanoseconds(start.ns);
+    return is_meant;
+  }
+  return apply_rig_option(key, value, options.rig);
+}
+
+}  // namespace
+
+Expected<SimOptions> parse_sim_options(const SourceAddress& address) {
+  SimOptions options;
+  auto rig = rig_of(address);
+  if (!rig) return forward_error(std::move(rig));
+  options.rig_file = std::move(*rig);
+  options.rig = options.rig_file ? options.rig_file->rig : intel_t265_d435_rig().rig;
+  for (const auto& [key, value] : address.options) {
+    if (!apply(key, value, options))
+      return bad_option("sim", key, value, fmt::format("{}, {}", kOwnOptions, kRigOptions));
+  }
+  return options;
+}
+
+}  // namespace swiftlet

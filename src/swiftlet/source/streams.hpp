@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "swiftlet/base/expected.hpp"
+#include "swiftlet/frame/frame.hpp"
+#include "swiftlet/frame/pose_sample.hpp"
+
+namespace swiftlet {
+
+/// The depth images of one camera of a recording, in the order of the recording.
+class DepthStream {
+ public:
+  virtual ~DepthStream() = default;
+  /// nullopt at the end. After an error the stream is at its end.
+  [[nodiscard]] virtual Expected<std::optional<DepthFrame>> next() = 0;
+};
+
+/// The poses of a recording, in our axes, in the order of the recording.
+class PoseStream {
+ public:
+  virtual ~PoseStream() = default;
+  /// nullopt at the end. After an error the stream is at its end.
+  [[nodiscard]] virtual Expected<std::optional<PoseSample>> next() = 0;
+};
+
+using DepthStreamPtr = std::unique_ptr<DepthStream>;
+using PoseStreamPtr = std::unique_ptr<PoseStream>;
+
+}  // namespace swiftlet

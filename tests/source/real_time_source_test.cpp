@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/source/real_time_source.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <utility>
+#include <vector>
+
+namespace swiftlet {
+namespace {
+
+using std::chrono::milliseconds;
+using Clock = std::chrono::steady_clock;
+
+/// Frames 20 ms apart, then the end or a fault.
+class Recorded final : public FrameSource {
+ public:
+  Recorded(int frames, bool has_fault) : frames_(frames), has_fault_(has_fault) {
+    tally_.of(FrameLoss::kPoseGap) = 3;
+  }
+  Expected<std::optional<Frame>> next() override {
+    if (given_ == frames_) {
+      if (std::exchange(has_fault_, false)) return fail(ErrorCode::kIo, "disk", "gone");
+      return std::nullopt;
+    }
+    ++tally_.delivered;
+    return Frame{Stamp{} + milliseconds(20 * given_++),
+                 DepthImage{},
+                 PinholeIntrinsics::create(4, 4, 4, 4, 2, 2).value(),
+                 {}};
+  }
+  const SourceInfo& info() const override { return info_; }
+  const FrameTally& tally() const override { return tally_; }
+
+ private:
+  int frames_;
+  bool has_fault_;
+  int given_ = 0;
+  SourceInfo info_{"recorded:", "+z", std::nullopt, std::nullopt};
+  FrameTally tally_;
+};
+
+TEST(RealTime, gives_every_frame_not_before_its_time_to_a_mapper_that_keeps_up) {
+  const auto source = play_in_real_time(std::make_unique<Recorded>(10, false), {.capacity = 10});
+  const auto start = Clock::now();
+  for (int i = 0; i < 10; ++i) {
+    const auto frame = source->next();
+    ASSERT_TRUE(frame && *frame);
+    EXPECT_EQ((*frame)->stamp, Stamp{} + milliseconds(20 * i));
+    // The first frame starts the clock, at some time after `start`.
+    EXPECT_GE(Clock::now() - start, milliseconds(20 * i));
+  }
+  const auto end = source->next();
+  EXPECT_TRUE(end && !*end);
+  FrameTally tally = source->tally();
+  EXPECT_EQ(tally.delivered, 10U);
+  EXPECT_EQ(tally.of(FrameLoss::kPoseGap), 3U) << "the recording's own";
+  EXPECT_EQ(tally.of(FrameLoss::kOverload), 0U);
+}
+
+TEST(RealTime, loses_the_oldest_whole_frames_and_counts_them_when_the_mapper_is_late) {
+  const auto source =
+      play_in_real_time(std::make_unique<Recorded>(50, false), {.capacity = 2, .speed = 1e6});
+  std::vector<Frame> frames;
+  auto frame = source->next();
+  // The mapper is busy until all 50 have been played, which is when the tally says so.
+  while (frame && *frame) {
+    frames.push_back(std::move(**frame));
+    frame = source->next();
+  }
+  FrameTally tally = source->tally();
+  EXPECT_EQ(tally.delivered, frames.size());
+  EXPECT_EQ(tally.delivered + tally.of(FrameLoss::kOverload), 50U) << "used or counted";
+  EXPECT_EQ(frames.back().stamp, Stamp{} + milliseconds(20 * 49)) << "the newest is never lost";
+  for (std::size_t i = 1; i < frames.size(); ++i) EXPECT_LT(frames[i - 1].stamp, frames[i].stamp);
+}
+
+TEST(RealTime, passes_on_the_fault_of_its_source_after_the_frames_before_it) {
+  const auto source =
+      play_in_real_time(std::make_unique<Recorded>(3, true), {.capacity = 5, .speed = 1e6});
+  for (int i = 0; i < 3; ++i) {
+    const auto frame = source->next();
+    ASSERT_TRUE(frame && *frame);
+  }
+  const auto fault = source->next();
+  ASSERT_FALSE(fault);
+  EXPECT_EQ(fault.error().where, "disk");
+  const auto end = source->next();
+  EXPECT_TRUE(end && !*end);
+}
+
+TEST(RealTime, can_be_left_before_its_end) {
+  const auto start = Clock::now();
+  auto source = play_in_real_time(std::make_unique<Recorded>(100'000, false));
+  ASSERT_TRUE(source->next());
+  source.reset();
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(60)) << "not the 2000 s of the recording";
+}
+
+}  // namespace
+}  // namespace swiftlet
