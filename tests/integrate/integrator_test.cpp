@@ -44,7 +44,8 @@ ReferenceMapper reference_for(const Frame& frame, int ratio) {
 }
 
 IntegrationTally integrate(RollingMap& map, const Frame& frame, int ratio,
-                           const IntegrateOptions& options = {}, std::uint64_t frame_number = 0) {
+                           const IntegrateOptions& options = {.integrator = "rays"},
+                           std::uint64_t frame_number = 0) {
   ConditionOptions condition;
   condition.downsample = ratio;
   auto conditioner = Conditioner::create(condition);

@@ -66,6 +66,7 @@ void change(const ConfigField&, std::vector<std::string>& value) { value.pop_bac
 MapperConfig base_config() {
   MapperConfig config;
   config.depth.downsample = 4;
+  config.integrate.integrator = "rays";  // reads ray_method; the parameters below are the other's
   config.depth.min_range_m = 0.4;
   config.map.size_m = {16.0, 16.0, 6.0};  // 0.6 of it must lie in fewer blocks and still be allowed
   return config;
@@ -80,6 +81,7 @@ TEST(MapperConfig, every_parameter_changes_some_output) {
   visit_config(defaults,
                [&](const ConfigField& field, const auto&) { keys.emplace_back(field.key); });
   for (const std::string& key : keys) {
+    if (key == "integrate.threads" || key == "integrate.max_frame_ms") continue;
     MapperConfig config = base_config();
     visit_config(config, [&](const ConfigField& field, auto& value) {
       if (field.key == key) change(field, value);
@@ -87,6 +89,16 @@ TEST(MapperConfig, every_parameter_changes_some_output) {
     ASSERT_TRUE(config.faults().empty()) << key << ": " << config.faults().front().text();
     EXPECT_FALSE(outcome_of(config) == before) << key << " changes nothing";
   }
+}
+
+TEST(MapperConfig, threads_change_no_output_and_a_deadline_does) {
+  MapperConfig config = base_config();
+  config.integrate.integrator = "projective";
+  const Outcome before = outcome_of(config);
+  config.integrate.threads = 3;
+  EXPECT_TRUE(outcome_of(config) == before);
+  config.integrate.max_frame_ms = 1e-6;
+  EXPECT_FALSE(outcome_of(config) == before);
 }
 
 TEST(MapperConfig, an_integrator_is_chosen_by_its_name) {

@@ -68,7 +68,10 @@ Status check_output(const MapOptions& options) {
 
 tl::expected<LoadedConfig, Faults> config_of(const MapOptions& options) {
   ConfigInput input = options.config;
-  if (!options.rays.empty()) input.settings.push_back("integrate.ray_method=" + options.rays);
+  if (!options.rays.empty()) {
+    input.settings.push_back("integrate.integrator=rays");
+    input.settings.push_back("integrate.ray_method=" + options.rays);
+  }
   return load_config(input);
 }
 
@@ -189,7 +192,11 @@ Action declare_map(CLI::App& parser) {
   parser.add_option("--set", o->config.settings, "one parameter, as in map.voxel_m=0.1")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  parser.add_option("--rays", o->rays, "ray method, see 'swiftlet list rays'")->type_name("NAME");
+  parser
+      .add_option(
+          "--rays", o->rays,
+          "trace rays by this method (integrate.integrator: rays); see 'swiftlet list rays'")
+      ->type_name("NAME");
   parser.add_option("--frames", o->frames, "stop after this many frames")
       ->check(positive)
       ->type_name("N");

@@ -25,6 +25,8 @@ void MappingSession::book(const MapUpdate& update) {
   ++summary_.verdicts[static_cast<std::size_t>(update.verdict)];
   if (update.verdict != FrameVerdict::kIntegrated) return;
   summary_.latency.add(update.times);
+  summary_.late_frames += update.tally.blocks_left > 0 ? 1 : 0;
+  summary_.blocks_left += update.tally.blocks_left;
   summary_.blocks_evicted += update.shift.blocks_evicted;
   summary_.blocks_restored += update.shift.blocks_restored;
   summary_.memory_bytes = mapper_->memory_bytes();

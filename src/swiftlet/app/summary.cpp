@@ -117,6 +117,10 @@ std::string summary_text(const MappingSummary& s) {
                       rate(s.integrated(), mapper_s));
   text += dropped_text(s.dropped());
   text += poses_text(s.source_tally, s.restarts);
+  if (s.late_frames > 0) {
+    text += fmt::format("  deadline   {} frames late; {} far blocks left to later frames\n",
+                        s.late_frames, s.blocks_left);
+  }
   text += latency_text(s.latency);
   text += fmt::format("  window     {}; {} blocks evicted, {} restored\n",
                       size_text(s.memory_bytes), s.blocks_evicted, s.blocks_restored);
@@ -142,6 +146,8 @@ std::string summary_json(const MappingSummary& s) {
       {"fps", rate(s.integrated(), s.elapsed_s)},
       {"mapper_fps", rate(s.integrated(), seconds(s.latency.total()))},
       {"latency_ms", latency_json(s.latency)},
+      {"late_frames", s.late_frames},
+      {"blocks_left", s.blocks_left},
       {"memory_bytes", s.memory_bytes},
       {"blocks_evicted", s.blocks_evicted},
       {"blocks_restored", s.blocks_restored},

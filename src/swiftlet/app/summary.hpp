@@ -30,7 +30,9 @@ struct MappingSummary {
   FrameTally source_tally;
   std::array<std::size_t, kFrameVerdictNames.size()> verdicts{};
   double elapsed_s = 0.0;
-  Latency latency;  ///< of the integrated frames
+  Latency latency;              ///< of the integrated frames
+  std::size_t late_frames = 0;  ///< of which max_frame_ms left far blocks out
+  std::size_t blocks_left = 0;  ///< of all these frames together
   std::size_t blocks_evicted = 0;
   std::size_t blocks_restored = 0;
   std::size_t memory_bytes = 0;  ///< window and scratch

@@ -18,7 +18,7 @@ struct ConditionOptions {
   std::vector<std::string> steps{"range_gate", "near_downsample"};  ///< names, in order
   double min_range_m = 0.2;  ///< nearer readings are dropped: below the D435's shortest distance
   double max_range_m = 10.0;
-  int downsample = 8;  ///< n of the near-preserving reduction; 1 keeps every pixel
+  int downsample = 1;  ///< n of the near-preserving reduction; 1 keeps every pixel
 };
 
 /// One step from raw depth towards trustworthy depth. A step may drop or move readings, never

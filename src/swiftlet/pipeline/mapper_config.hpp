@@ -77,6 +77,12 @@ void visit_config(Config& c, Visit&& visit) {
   visit(ConfigField{"integrate.logodds_per_step", "one step of a cell's byte, in log-odds", 0.001,
                     1.0},
         c.integrate.logodds_per_step);
+  visit(ConfigField{"integrate.threads", "threads that share a frame; the map is the same", 1, 64},
+        c.integrate.threads);
+  visit(ConfigField{"integrate.max_frame_ms",
+                    "once fusing took so long, far blocks wait for the next frame; 0: never", 0.0,
+                    1000.0},
+        c.integrate.max_frame_ms);
   visit(ConfigField{"occupancy.free_below", "cells below this byte are free", 1, 127},
         c.occupancy.free_below);
   visit(ConfigField{"occupancy.occupied_from", "cells from this byte on are occupied", 128, 255},
