@@ -69,7 +69,7 @@ std::optional<Stamp> FaultyTracker::next_arrival() const {
 
 RawTrackerPose FaultyTracker::next() {
   SWIFTLET_REQUIRE(!on_the_way_.empty(), "a dead tracker says nothing");
-  const RawTrackerPose pose = on_the_way_.front().pose;
+  RawTrackerPose pose = on_the_way_.front().pose;
   on_the_way_.pop_front();
   produce();
   return pose;

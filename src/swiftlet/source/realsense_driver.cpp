@@ -99,11 +99,11 @@ bool is_wanted(const rs2::stream_profile& profile, const RealsenseProfile& wante
          profile.fps() == wanted.fps;
 }
 
-Expected<RealsenseStreamPtr> start(rs2::sensor sensor, const rs2::stream_profile& profile,
+Expected<RealsenseStreamPtr> start(const rs2::sensor& sensor, const rs2::stream_profile& profile,
                                    std::function<void(const rs2::frame&)> take) {
   sensor.open(profile);
   auto stream = std::make_unique<RealsenseStream>(sensor);
-  sensor.start([take = std::move(take)](rs2::frame frame) { take(frame); });
+  sensor.start([take = std::move(take)](const rs2::frame& frame) { take(frame); });
   return stream;
 }
 

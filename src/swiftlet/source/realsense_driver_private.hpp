@@ -30,7 +30,7 @@ struct RealsenseProfile {
 /// A sensor that streams until the object goes away.
 class RealsenseStream {
  public:
-  explicit RealsenseStream(rs2::sensor sensor) : sensor_(std::move(sensor)) {}
+  explicit RealsenseStream(const rs2::sensor& sensor) : sensor_(sensor) {}
   RealsenseStream(const RealsenseStream&) = delete;
   RealsenseStream& operator=(const RealsenseStream&) = delete;
   ~RealsenseStream();
