@@ -24,7 +24,7 @@ std::string cpu_name() {
   return "unknown";
 }
 
-double milliseconds(Nanoseconds t) { return 1e3 * seconds(t); }
+double in_ms(Nanoseconds t) { return 1e3 * seconds(t); }
 
 std::optional<double> median_of(const std::vector<BenchRow>& rows, std::string_view integrator) {
   const auto found = std::ranges::find(rows, integrator, &BenchRow::integrator);
@@ -71,7 +71,7 @@ std::vector<BenchRow> rows_of(const Workload& workload, double cell_m,
   const auto pixels = static_cast<double>(workload.frames.front().depth.raw.pixels().size());
   std::vector<BenchRow> rows;
   for (const Runner& r : runners) {
-    const auto at = [&](double share) { return milliseconds(r.latency.frame_percentile(share)); };
+    const auto at = [&](double share) { return in_ms(r.latency.frame_percentile(share)); };
     constexpr double kLeast = 1e-9;  // of any number of frames that is the first
     const double median_ms = at(0.5);
     const double mpixel_s = median_ms > 0.0 ? 1e-3 * pixels / median_ms : 0.0;
@@ -91,10 +91,10 @@ std::vector<BenchRow> rows_of(const Workload& workload, double cell_m,
 std::string rows_text(std::span<const BenchRow> rows) {
   std::size_t width = 8;
   for (const BenchRow& row : rows) width = std::max(width, row.workload.size());
-  std::string text = fmt::format("{:{}}  {:>6}  {:<19} {:>7} {:>6} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9}\n",
-                                 "workload", width, "cell m", "integrator", "threads", "frames",
-                                 "min ms", "median ms", "p99 ms", "Mpixel/s", "map", "x plain",
-                                 "x discr.");
+  std::string text =
+      fmt::format("{:{}}  {:>6}  {:<19} {:>7} {:>6} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9}\n",
+                  "workload", width, "cell m", "integrator", "threads", "frames", "min ms",
+                  "median ms", "p99 ms", "Mpixel/s", "map", "x plain", "x discr.");
   for (const BenchRow& r : rows) {
     text += fmt::format(
         "{:{}}  {:>6}  {:<19} {:>7} {:>6} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.1f} {:>9} {:>9} {:>9}\n",

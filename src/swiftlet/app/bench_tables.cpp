@@ -106,8 +106,7 @@ std::string tables_text(const ThesisTables& tables) {
   text += fmt::format(
       "Table 4.3 of the thesis: mapping times, median ms and frames a second\n"
       "  {:<44}{:>10}{:>9}{:>10}{:>9}{:>10}{:>9}\n",
-      "", "thesis", "", "line dr.", "", "projective", "");
-  while (text.size() > 1 && text[text.size() - 2] == ' ') text.erase(text.size() - 2, 1);
+      "", "thesis", "fps", "line dr.", "fps", "projective", "fps");
   for (const ThesisLine& line : tables.mapping) text += line_text(line, true);
   text +=
       "  (its conditions with a 2-D or 3-D view are left out: Swiftlet draws no view while it "

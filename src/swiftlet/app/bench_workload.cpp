@@ -65,9 +65,9 @@ Expected<Workload> read_workload(FrameSource& source, const WorkloadOptions& opt
   made.warm_up = options.warm_up;
   if (made.frames.size() < most) made.warm_up = std::min(made.warm_up, made.frames.size() / 5);
   if (!made.frames.empty()) return made;
-  return fail(ErrorCode::kCorruptInput, made.name, "there is no frame to measure",
-              fmt::format("check its poses and that it has depth readings up to {} m",
-                          made.max_range_m));
+  return fail(
+      ErrorCode::kCorruptInput, made.name, "there is no frame to measure",
+      fmt::format("check its poses and that it has depth readings up to {} m", made.max_range_m));
 }
 
 std::string workload_text(const Workload& w) {

@@ -64,11 +64,13 @@ class Bench {
     std::vector<Runner> runners;
     for (const int threads : options_.threads) {
       config.integrate.threads = threads;
-      if (auto added = add(runners, "projective", config, 1); !added) return forward_error(std::move(added));
+      if (auto added = add(runners, "projective", config, 1); !added)
+        return forward_error(std::move(added));
     }
     config.integrate.threads = 1;
     // A hundred times slower: a few frames tell as much.
-    if (auto added = add(runners, "rays", config, every_nth(10, workload_)); !added) return forward_error(std::move(added));
+    if (auto added = add(runners, "rays", config, every_nth(10, workload_)); !added)
+      return forward_error(std::move(added));
     add_octomap(runners, config);
     tell(fmt::format("{}: cells of {} m", workload_.name, voxel_m));
     race(workload_, runners);
@@ -81,12 +83,12 @@ class Bench {
     config.depth.downsample = kThesisDownsample;
     std::vector<Runner> runners;
     for (const char* name : {"projective", "rays"}) {
-      if (auto added = add(runners, name, config, 1); !added) return forward_error(std::move(added));
+      if (auto added = add(runners, name, config, 1); !added)
+        return forward_error(std::move(added));
     }
     tell(fmt::format("{}: the thesis's setting", workload_.name));
     race(workload_, runners);
-    return rows_of(workload_, kThesisCell_m, runners,
-                   fmt::format(", n = {}", kThesisDownsample));
+    return rows_of(workload_, kThesisCell_m, runners, fmt::format(", n = {}", kThesisDownsample));
   }
 
   Expected<ThesisTables> thesis_tables() const {
