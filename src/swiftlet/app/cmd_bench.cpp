@@ -186,7 +186,7 @@ Faults bench(BenchOptions options) {
   Result result;
   for (FrameSourcePtr& source : opened) {
     if (auto done = measure(*source, options, result); !done) return fault_of(std::move(done));
-    source.reset();  // a simulated one has a thread and a scene
+    source.reset();  // and with it its scene or recording
   }
   print(result, options.as_json);
   return {};
@@ -202,8 +202,8 @@ Action declare_bench(CLI::App& parser) {
     return limits;
   };
   parser.add_option("SOURCE", o->sources, "where frames come from, as KIND:PLACE")
-      ->type_name("...")
-      ->capture_default_str();
+      ->type_name("")
+      ->default_str("sim:apartment");
   parser.add_option("--frames", o->workload.frames, "frames to measure, held in memory")
       ->check(range(1, 100'000))
       ->type_name("N")
@@ -212,16 +212,16 @@ Action declare_bench(CLI::App& parser) {
       ->check(range(0, 100'000))
       ->type_name("N")
       ->capture_default_str();
-  parser.add_option("--voxel", o->voxels_m, "edges of a cell")
+  parser.add_option("--voxel", o->voxels_m, "edges of a cell, as in 0.2,0.05")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->type_name("M,...")
+      ->type_name("M")
       ->default_str("0.2,0.1,0.05");
-  parser.add_option("--threads", o->threads, "numbers of threads")
+  parser.add_option("--threads", o->threads, "numbers of threads, as in 1,2,4")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(range(1, 64))
-      ->type_name("N,...")
+      ->type_name("N")
       ->default_str("1,2");
   parser.add_option("--range", o->range_m, "drop readings beyond; else 10 for sim:, 5 for others")
       ->check(range(0.1, 100.0))
