@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "swiftlet/app/bench_race.hpp"
@@ -50,7 +51,7 @@ Expected<std::vector<Runner>> make_runners(const Workload& workload, MapperConfi
     config.depth.downsample = s.downsample;
     auto contender = make_mapper_contender(config);
     if (!contender) return forward_error(std::move(contender));
-    const bool is_slow = s.downsample == 1 && runners.size() <= std::size_t(Run::kLine1);
+    const bool is_slow = s.downsample == 1 && std::string_view(s.integrator) == "rays";
     runners.push_back({.name = s.integrator,
                        .every = is_slow ? every_nth(10, workload) : 1,
                        .contender = std::move(*contender)});
@@ -60,8 +61,8 @@ Expected<std::vector<Runner>> make_runners(const Workload& workload, MapperConfi
 
 std::string line_text(const ThesisLine& line, bool has_rate) {
   const auto time = [&](double ms) {
-    if (ms <= 0.0) return fmt::format("{:>10}{}", "", has_rate ? fmt::format("{:>9}", "") : "");
-    return fmt::format("{:>10.3f}", ms) + (has_rate ? fmt::format("{:>9.1f}", 1e3 / ms) : "");
+    if (ms <= 0.0) return fmt::format("{:>12}{}", "", has_rate ? fmt::format("{:>9}", "") : "");
+    return fmt::format("{:>12.3f}", ms) + (has_rate ? fmt::format("{:>9.1f}", 1e3 / ms) : "");
   };
   std::string text = fmt::format("  {:<44}", line.what) + time(line.thesis_ms) + time(line.rays_ms);
   if (has_rate) text += time(line.projective_ms);
@@ -99,13 +100,13 @@ Expected<ThesisTables> measure_thesis_tables(const Workload& workload, MapperCon
 std::string tables_text(const ThesisTables& tables) {
   std::string text = fmt::format(
       "Table 4.2 of the thesis: function times, {}, cells of {} m, one thread, median ms\n"
-      "  {:<44}{:>10}{:>10}\n",
+      "  {:<44}{:>12}{:>12}\n",
       tables.workload, kCell_m, "", "thesis", "here");
   for (const ThesisLine& line : tables.functions) text += line_text(line, false);
   text += "  (colouring the depth image is left out: the map has no use for it)\n";
   text += fmt::format(
       "Table 4.3 of the thesis: mapping times, median ms and frames a second\n"
-      "  {:<44}{:>10}{:>9}{:>10}{:>9}{:>10}{:>9}\n",
+      "  {:<44}{:>12}{:>9}{:>12}{:>9}{:>12}{:>9}\n",
       "", "thesis", "fps", "line dr.", "fps", "projective", "fps");
   for (const ThesisLine& line : tables.mapping) text += line_text(line, true);
   text +=
