@@ -12,6 +12,7 @@
   X(render, "draw a map as a PNG picture")                    \
   X(export, "write a map in another program's format")        \
   X(compare, "count the cells in which two maps differ")      \
+  X(bench, "measure how fast maps are built, beside OctoMap") \
   X(check, "look for faults in map files and config files")   \
   X(list, "list every source, method, format, view, parameter")
 

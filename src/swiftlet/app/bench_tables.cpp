@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/app/bench_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "swiftlet/app/bench_race.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+constexpr double kCell_m = 0.2;  // table 4.1
+
+/// The runners of the tables, in the order of the race.
+enum class Run : std::size_t {
+  kPoints,
+  kTraversal10,
+  kLine10,
+  kLine8,
+  kLine1,
+  kProjective10,
+  kProjective8,
+  kProjective1
+};
+
+struct Setting {
+  const char* integrator;
+  const char* ray_method;
+  int downsample;
+};
+constexpr std::array kSettings{
+    Setting{"rays", "voxel_traversal", 10},       Setting{"rays", "line_drawing", 10},
+    Setting{"rays", "line_drawing", 8},           Setting{"rays", "line_drawing", 1},
+    Setting{"projective", "voxel_traversal", 10}, Setting{"projective", "voxel_traversal", 8},
+    Setting{"projective", "voxel_traversal", 1}};
+
+Expected<std::vector<Runner>> make_runners(const Workload& workload, MapperConfig config) {
+  config.map.voxel_m = kCell_m;
+  config.depth.downsample = 1;
+  config.integrate.threads = 1;
+  std::vector<Runner> runners;
+  runners.push_back({.name = "points", .contender = make_points_contender(config)});
+  for (const Setting& s : kSettings) {
+    config.integrate.integrator = s.integrator;
+    config.integrate.ray_method = s.ray_method;
+    config.depth.downsample = s.downsample;
+    auto contender = make_mapper_contender(config);
+    if (!contender) return forward_error(std::move(contender));
+    const bool is_slow = s.downsample == 1 && std::string_view(s.integrator) == "rays";
+    runners.push_back({.name = s.integrator,
+                       .every = is_slow ? every_nth(10, workload) : 1,
+                       .contender = std::move(*contender)});
+  }
+  return runners;
+}
+
+std::string line_text(const ThesisLine& line, bool has_rate) {
+  const auto time = [&](double ms) {
+    if (ms <= 0.0) return fmt::format("{:>12}{}", "", has_rate ? fmt::format("{:>9}", "") : "");
+    return fmt::format("{:>12.3f}", ms) + (has_rate ? fmt::format("{:>9.1f}", 1e3 / ms) : "");
+  };
+  std::string text = fmt::format("  {:<44}", line.what) + time(line.thesis_ms) + time(line.rays_ms);
+  if (has_rate) text += time(line.projective_ms);
+  while (text.ends_with(' ')) text.pop_back();
+  return text + "\n";
+}
+
+}  // namespace
+
+Expected<ThesisTables> measure_thesis_tables(const Workload& workload, MapperConfig config) {
+  auto runners = make_runners(workload, std::move(config));
+  if (!runners) return forward_error(std::move(runners));
+  race(workload, *runners);
+  const auto latency = [&](Run run) -> const Latency& {
+    return (*runners)[static_cast<std::size_t>(run)].latency;
+  };
+  const auto stage = [&](Run run, Stage s) {
+    return 1e3 * seconds(latency(run).stage_percentile(s, 0.5));
+  };
+  const auto frame = [&](Run run) { return 1e3 * seconds(latency(run).frame_percentile(0.5)); };
+  ThesisTables tables{workload.name, {}, {}};
+  tables.functions = {
+      {"resolution downsampling, 10 x 10", 5.48, stage(Run::kLine10, Stage::kCondition)},
+      {"point extraction, full resolution", 19.16, stage(Run::kPoints, Stage::kCondition)},
+      {"fast voxel traversal + map update, 10 x 10", 10.49,
+       stage(Run::kTraversal10, Stage::kIntegrate)},
+      {"line drawing + map update, 10 x 10", 9.77, stage(Run::kLine10, Stage::kIntegrate)}};
+  tables.mapping = {
+      {"10 x 10 downsampling, no view", 28.475, frame(Run::kLine10), frame(Run::kProjective10)},
+      {"8 x 8 downsampling, no view", 36.517, frame(Run::kLine8), frame(Run::kProjective8)},
+      {"full resolution, no view", 665.320, frame(Run::kLine1), frame(Run::kProjective1)}};
+  return tables;
+}
+
+std::string tables_text(const ThesisTables& tables) {
+  std::string text = fmt::format(
+      "Table 4.2 of the thesis: function times, {}, cells of {} m, one thread, median ms\n"
+      "  {:<44}{:>12}{:>12}\n",
+      tables.workload, kCell_m, "", "thesis", "here");
+  for (const ThesisLine& line : tables.functions) text += line_text(line, false);
+  text += "  (colouring the depth image is left out: the map has no use for it)\n";
+  text += fmt::format(
+      "Table 4.3 of the thesis: mapping times, median ms and frames a second\n"
+      "  {:<44}{:>12}{:>9}{:>12}{:>9}{:>12}{:>9}\n",
+      "", "thesis", "fps", "line dr.", "fps", "projective", "fps");
+  for (const ThesisLine& line : tables.mapping) text += line_text(line, true);
+  text +=
+      "  (its conditions with a 2-D or 3-D view are left out: Swiftlet draws no view while it "
+      "maps)\n"
+      "The thesis's machine was an i7-8550U, its camera 848 x 480 pixels.\n";
+  return text;
+}
+
+nlohmann::ordered_json tables_json(const ThesisTables& tables) {
+  const auto lines = [](const std::vector<ThesisLine>& table) {
+    auto array = nlohmann::ordered_json::array();
+    for (const ThesisLine& line : table) {
+      nlohmann::ordered_json json{
+          {"what", line.what}, {"thesis_ms", line.thesis_ms}, {"rays_ms", line.rays_ms}};
+      if (line.projective_ms > 0.0) json["projective_ms"] = line.projective_ms;
+      array.push_back(std::move(json));
+    }
+    return array;
+  };
+  return {{"workload", tables.workload},
+          {"cell_m", kCell_m},
+          {"functions_4_2", lines(tables.functions)},
+          {"mapping_4_3", lines(tables.mapping)}};
+}
+
+}  // namespace swiftlet::app

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+// What the benchmark measures: which frames, in which order; and what the program tells of it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/support/run_program.hpp"
+#include "support/recordings.hpp"
+#include "support/synthetic.hpp"
+#include "swiftlet/app/bench_race.hpp"
+
+namespace swiftlet::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+// ---- which frames
+
+/// A flight of `count` images, of which the first `lost` have no pose; the number of an image is
+/// its stamp. Every `blind`-th image is empty.
+class CountedSource final : public FrameSource {
+ public:
+  CountedSource(std::size_t count, std::size_t lost, std::size_t blind) : blind_(blind) {
+    info_ = {"counted:", "+z", count, 0.07};
+    tally_.of(FrameLoss::kNoPose) = lost;
+  }
+  Expected<std::optional<Frame>> next() override {
+    const std::size_t number = tally_.of(FrameLoss::kNoPose) + tally_.delivered;
+    if (number >= *info_.frame_count) return std::nullopt;
+    ++tally_.delivered;
+    Frame frame = wall_frame(small_camera(4, 3), number % blind_ == blind_ - 1 ? 0.0 : 2.0);
+    frame.stamp.ns = static_cast<std::int64_t>(number);
+    return frame;
+  }
+  const SourceInfo& info() const override { return info_; }
+  const FrameTally& tally() const override { return tally_; }
+
+ private:
+  SourceInfo info_;
+  FrameTally tally_;
+  std::size_t blind_;
+};
+constexpr std::size_t kNever = 1'000'000;
+
+std::vector<std::size_t> numbers_of(const app::Workload& workload) {
+  std::vector<std::size_t> numbers;
+  for (const Frame& f : workload.frames) numbers.push_back(static_cast<std::size_t>(f.stamp.ns));
+  return numbers;
+}
+
+TEST(BenchWorkload, spreads_the_frames_evenly_over_any_flight_and_holds_no_more_than_asked_for) {
+  for_each_seed(200, [](Random& random) {
+    const auto count = static_cast<std::size_t>(random.integer(1, 400));
+    const auto frames = static_cast<std::size_t>(random.integer(1, 60));
+    const auto warm_up = static_cast<std::size_t>(random.integer(0, 20));
+    CountedSource source(count, 0, kNever);
+    const auto made = app::read_workload(source, {frames, warm_up, {}});
+    ASSERT_TRUE(made);
+    const auto numbers = numbers_of(*made);
+    const std::size_t wanted = std::min(count, frames + warm_up);
+    ASSERT_EQ(numbers.size(), wanted) << count;
+    EXPECT_EQ(numbers.front(), 0U);
+    const std::size_t gap = (count + wanted - 1) / wanted;
+    EXPECT_GE(numbers.back() + gap, count) << "up to the end of the flight";
+    for (std::size_t j = 1; j < numbers.size(); ++j) {
+      EXPECT_GE(numbers[j] - numbers[j - 1] + 1, gap);
+      EXPECT_LE(numbers[j] - numbers[j - 1], gap);
+    }
+    const bool is_short = count < frames + warm_up;
+    EXPECT_EQ(made->warm_up, is_short ? std::min(warm_up, count / 5) : warm_up);
+  });
+}
+
+TEST(BenchWorkload, makes_up_for_frames_that_were_lost_or_have_no_reading) {
+  CountedSource source(40, 10, 4);
+  const auto made = app::read_workload(source, {10, 0, {}});
+  ASSERT_TRUE(made);
+  // 0, 4 and 8 had no pose, 11 nothing to see; the ones that are due are caught up on.
+  EXPECT_THAT(numbers_of(*made), ElementsAre(10, 12, 13, 14, 16, 20, 24, 28, 32, 36));
+  EXPECT_EQ(made->baseline_m, 0.07) << "as the source says";
+}
+
+TEST(BenchWorkload, needs_a_frame_with_a_reading_in_range) {
+  CountedSource blind(10, 0, 1);
+  EXPECT_EQ(app::read_workload(blind, {}).error().code, ErrorCode::kCorruptInput);
+  CountedSource source(10, 0, kNever);
+  EXPECT_FALSE(app::read_workload(source, {10, 0, 1.0})) << "the wall is 2 m away";
+}
+
+// ---- in which order
+
+/// Writes down its name and the number of each frame; takes 1 ms for frame 0, 2 ms for frame 1, ...
+class Diarist final : public app::Contender {
+ public:
+  Diarist(std::string name, std::vector<std::string>& diary)
+      : name_(std::move(name)), diary_(diary) {}
+  std::optional<StageTimes> fuse(const Frame& frame) override {
+    diary_.push_back(fmt::format("{}{}", name_, frame.stamp.ns));
+    StageTimes times;
+    times.of[0] = std::chrono::milliseconds(frame.stamp.ns + 1);
+    return times;
+  }
+  [[nodiscard]] std::size_t map_bytes() const override { return 0; }
+
+ private:
+  std::string name_;
+  std::vector<std::string>& diary_;
+};
+
+TEST(BenchRace, all_fuse_a_frame_before_the_next_and_warm_up_is_not_booked) {
+  CountedSource source(5, 0, kNever);
+  auto workload = app::read_workload(source, {3, 2, {}});
+  ASSERT_TRUE(workload);
+  std::vector<std::string> diary;
+  std::vector<app::Runner> runners;
+  runners.push_back({.name = "a", .contender = std::make_unique<Diarist>("a", diary)});
+  runners.push_back({.name = "b", .every = 2, .contender = std::make_unique<Diarist>("b", diary)});
+  app::race(*workload, runners);
+  EXPECT_THAT(diary, ElementsAre("a0", "b0", "a1", "a2", "b2", "a3", "a4", "b4"));
+  EXPECT_EQ(runners[0].latency.frame_count(), 3U);
+  EXPECT_EQ(runners[1].latency.frame_count(), 2U);
+  EXPECT_EQ(runners[0].latency.frame_percentile(0.5), std::chrono::milliseconds(4));
+}
+
+TEST(BenchRace, a_slow_contender_sees_five_measured_frames_if_there_are_as_many) {
+  for (std::size_t frames = 1; frames <= 200; ++frames) {
+    for (const std::size_t warm_up : {std::size_t{0}, frames / 7, frames - 1}) {
+      app::Workload workload;
+      workload.frames.assign(frames, wall_frame(small_camera(4, 3), 2.0));
+      workload.warm_up = warm_up;
+      const std::size_t every = app::every_nth(10, workload);
+      std::size_t measured = 0;
+      for (std::size_t i = warm_up; i < frames; ++i) measured += i % every == 0 ? 1 : 0;
+      EXPECT_GE(measured, std::min<std::size_t>(5, frames - warm_up)) << frames << " " << warm_up;
+      EXPECT_LE(every, 10U);
+    }
+  }
+}
+
+// ---- what the program tells
+
+class Bench : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory(folder_ / "rec");
+    write_seven_scenes(folder_ / "rec");
+  }
+  Ended bench(std::vector<std::string> words) const {
+    words.insert(words.begin(), "bench");
+    return run(words, folder_.path());
+  }
+  TempFolder folder_;
+};
+
+const json* row_of(const json& rows, double cell_m, const std::string& integrator, int threads) {
+  for (const json& row : rows) {
+    if (row.at("cell_m") == cell_m && row.at("integrator") == integrator &&
+        row.at("threads") == threads && row.at("workload") == "7scenes:rec") {
+      return &row;
+    }
+  }
+  return nullptr;
+}
+
+TEST_F(Bench, has_a_row_for_every_contender_cell_size_and_number_of_threads) {
+  const Ended ended = bench({"7scenes:rec", "--voxel", "0.2,0.1", "--threads", "1,3", "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const json rows = json::parse(ended.out).at("rows");
+  for (const double cell_m : {0.2, 0.1}) {
+    EXPECT_NE(row_of(rows, cell_m, "projective", 1), nullptr);
+    EXPECT_NE(row_of(rows, cell_m, "projective", 3), nullptr);
+    EXPECT_NE(row_of(rows, cell_m, "rays", 1), nullptr);
+    for (const char* name : {"octomap_plain", "octomap_discretised"}) {
+      EXPECT_EQ(row_of(rows, cell_m, name, 1) != nullptr, SWIFTLET_HAS_OCTOMAP == 1);
+    }
+  }
+  constexpr std::size_t kThesisSetting = 2;  // n = 8: projective and rays
+  EXPECT_EQ(rows.size(), 2 * (3 + 2 * SWIFTLET_HAS_OCTOMAP) + kThesisSetting);
+}
+
+TEST_F(Bench, every_row_has_all_of_the_schema_and_times_that_agree) {
+  const Ended ended = bench({"7scenes:rec", "--voxel", "0.2", "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const json result = json::parse(ended.out);
+  for (const char* key : {"cpu", "compiler", "build_type", "swiftlet_version"}) {
+    EXPECT_THAT(result.at("machine").at(key).get<std::string>(), Not(IsEmpty())) << key;
+  }
+  EXPECT_GE(result.at("machine").at("cores"), 1);
+  const std::set<std::string> schema{"workload",
+                                     "cell_m",
+                                     "integrator",
+                                     "threads",
+                                     "frames",
+                                     "min_ms",
+                                     "median_ms",
+                                     "p99_ms",
+                                     "mpixel_s",
+                                     "map_bytes",
+                                     "speedup_vs_octomap_plain",
+                                     "speedup_vs_octomap_discretised"};
+  for (const json& row : result.at("rows")) {
+    std::set<std::string> keys;
+    for (const auto& item : row.items()) keys.insert(item.key());
+    EXPECT_EQ(keys, schema);
+    EXPECT_EQ(row.at("frames"), 3);
+    EXPECT_GT(row.at("min_ms"), 0.0);
+    EXPECT_LE(row.at("min_ms"), row.at("median_ms"));
+    EXPECT_LE(row.at("median_ms"), row.at("p99_ms"));
+    EXPECT_GT(row.at("map_bytes"), 0);
+    constexpr double kMegapixels = 24 * 16 * 1e-6;  // of the recording
+    const double mpixels =
+        row.at("mpixel_s").get<double>() * 1e-3 * row.at("median_ms").get<double>();
+    EXPECT_NEAR(mpixels, kMegapixels, 1e-9);
+  }
+}
+
+TEST_F(Bench, speedups_are_the_ratios_of_the_medians_and_null_without_a_counterpart) {
+  const Ended ended = bench({"7scenes:rec", "--voxel", "0.2", "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const json rows = json::parse(ended.out).at("rows");
+  for (const std::string which : {"plain", "discretised"}) {
+    const json* octomap = row_of(rows, 0.2, "octomap_" + which, 1);
+    for (const json& row : rows) {
+      const json& speedup = row.at("speedup_vs_octomap_" + which);
+      const bool has_counterpart = octomap != nullptr && row.at("workload") == "7scenes:rec";
+      ASSERT_EQ(speedup.is_number(), has_counterpart) << row;
+      if (!has_counterpart) continue;
+      const double ms = row.at("median_ms");
+      // JSON holds 17 digits: the product is off by a few roundings.
+      EXPECT_NEAR(speedup.get<double>() * ms, octomap->at("median_ms").get<double>(), 1e-9);
+    }
+  }
+}
+
+TEST_F(Bench, tells_people_of_machine_frames_and_the_tables_of_the_thesis) {
+  const Ended ended = bench({"7scenes:rec", "--voxel", "0.2", "--tables"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  for (const char* part : {"cores; ", "7scenes:rec: 3 of 3 frames", "24 x 16 pixels, range 5 m",
+                           "7scenes:rec, n = 8", "Table 4.2", "5.480", "19.160", "10.490", "9.770",
+                           "Table 4.3", "28.475", "36.517", "665.320", "left out"}) {
+    EXPECT_THAT(ended.out, HasSubstr(part));
+  }
+  EXPECT_EQ(ended.out.find("octomap_plain") != std::string::npos, SWIFTLET_HAS_OCTOMAP == 1);
+  EXPECT_EQ(ended.out.find("OctoMap was not built") != std::string::npos,
+            SWIFTLET_HAS_OCTOMAP == 0);
+  EXPECT_THAT(ended.err, HasSubstr("3/3 frames")) << "progress";
+}
+
+TEST_F(Bench, tables_have_a_time_on_this_machine_beside_every_one_of_the_thesis) {
+  const Ended ended = bench({"7scenes:rec", "--voxel", "0.2", "--tables", "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const json tables = json::parse(ended.out).at("tables");
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_EQ(tables[0].at("functions_4_2").size(), 4U);
+  EXPECT_EQ(tables[0].at("mapping_4_3").size(), 3U);
+  for (const json& line : tables[0].at("functions_4_2")) EXPECT_GT(line.at("rays_ms"), 0.0) << line;
+  for (const json& line : tables[0].at("mapping_4_3")) {
+    EXPECT_GT(line.at("rays_ms"), 0.0) << line;
+    EXPECT_GT(line.at("projective_ms"), 0.0) << line;
+  }
+}
+
+TEST_F(Bench, wrong_usage_is_exit_code_2_and_told_before_any_frame_is_read) {
+  const std::vector<std::vector<std::string>> wrong{
+      {"--frames", "0"},     {"--frames", "many"}, {"--warm-up", "-1"}, {"--voxel", "0"},
+      {"--voxel", "0.2,x"},  {"--voxel", "nan"},   {"--voxel", "20"},   {"--threads", "0"},
+      {"--threads", "1,-2"}, {"--range", "0"},     {"--range", "nan"},  {"--magic"}};
+  for (std::vector<std::string> words : wrong) {
+    words.insert(words.begin(), "7scenes:rec");
+    const Ended ended = bench(words);
+    EXPECT_EQ(ended.exit_code, 2) << words[1] << ": " << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("swiftlet: "));
+    EXPECT_THAT(ended.err, Not(HasSubstr("reading frames")));
+    EXPECT_THAT(ended.out, IsEmpty());
+  }
+  const Ended second = bench({"7scenes:rec", "magic:rec"});
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_THAT(second.err, HasSubstr("unknown source 'magic'"));
+  EXPECT_THAT(second.err, Not(HasSubstr("reading frames")));
+}
+
+TEST_F(Bench, fails_where_there_is_nothing_to_measure) {
+  for (const int number : {0, 1, 2}) write_seven_scenes_frame(folder_ / "rec", number, flat(0));
+  const Ended ended = bench({"7scenes:rec"});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("there is no frame to measure"));
+  EXPECT_THAT(ended.out, IsEmpty());
+}
+
+}  // namespace
+}  // namespace swiftlet::test
