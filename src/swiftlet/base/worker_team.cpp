@@ -6,6 +6,20 @@
 #include "swiftlet/base/contract.hpp"
 
 namespace swiftlet {
+namespace {
+
+/// Waits until a value is no longer this one. A frame has several rounds a fraction of a
+/// millisecond apart, less than falling asleep and waking up takes: looks again for some 20 us
+/// before it sleeps.
+std::uint32_t wait_beyond(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
+  for (int looks = 0; looks < 20'000; ++looks) {
+    if (const std::uint32_t now = value.load(std::memory_order_acquire); now != old) return now;
+  }
+  value.wait(old);
+  return value;
+}
+
+}  // namespace
 
 WorkerTeam::WorkerTeam(int threads) {
   SWIFTLET_REQUIRE(threads >= 1, "the owner is one of the threads");
@@ -31,13 +45,13 @@ void WorkerTeam::start(Call call, void* context) {
 }
 
 void WorkerTeam::finish() {
-  for (std::uint32_t left = busy_; left != 0; left = busy_) busy_.wait(left);
+  for (std::uint32_t left = busy_; left != 0;) left = wait_beyond(busy_, left);
 }
 
 void WorkerTeam::serve(int worker) {
   std::uint32_t seen = 0;
   for (;;) {
-    round_.wait(seen);
+    wait_beyond(round_, seen);
     ++seen;  // run() waits for every worker, so no round is missed
     if (is_closing_) return;
     call_(context_, worker);
