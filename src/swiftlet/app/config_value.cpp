@@ -8,7 +8,8 @@
 
 #include <array>
 #include <charconv>
-#include <optional>
+
+#include "swiftlet/base/number_text.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -18,14 +19,6 @@ struct Unit {
   double metres;
 };
 constexpr std::array kLengths{Unit{"mm", 1e-3}, Unit{"cm", 1e-2}, Unit{"m", 1.0}, Unit{"km", 1e3}};
-
-template <class Number>
-std::optional<Number> whole_number(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 /// What to write instead: "20cm" under a key in metres wants "0.2".
 std::string remedy(std::string_view key, std::string_view text) {
@@ -52,7 +45,7 @@ template <class Number>
 Status read_number(std::string_view key, const YAML::Node& node, std::string_view wanted,
                    Number& out) {
   const std::string text = node.IsScalar() ? node.Scalar() : std::string{};
-  const auto value = whole_number<Number>(text);
+  const auto value = number_from<Number>(text);
   if (!value) {
     return fail(ErrorCode::kInvalidConfig, {}, fmt::format("{} is not {}", kind_of(node), wanted),
                 remedy(key, text));

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <utility>
 
+#include "swiftlet/base/number_text.hpp"
 #include "swiftlet/source/rig_options.hpp"
 
 namespace swiftlet {
@@ -16,14 +16,6 @@ namespace {
 constexpr std::string_view kOwnOptions =
     "seed=N, noise=on|off, start=SECONDS, frames=N, cameras=1..8, shuffle=N, fault=NAME, "
     "fault_at=SECONDS";
-
-template <class Number>
-std::optional<Number> whole_number(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 /// A time since the start; false if it cannot be meant.
 bool apply_time(std::string_view value, Stamp& out) {
@@ -34,9 +26,9 @@ bool apply_time(std::string_view value, Stamp& out) {
 
 /// Applies one "key=value"; false if it cannot be meant.
 bool apply(std::string_view key, std::string_view value, SimOptions& options) {
-  if (key == "seed") return (options.seed = whole_number<std::uint64_t>(value)).has_value();
-  if (key == "frames") return (options.frames = whole_number<std::size_t>(value)).has_value();
-  if (key == "shuffle") return (options.shuffle = whole_number<std::uint64_t>(value)).has_value();
+  if (key == "seed") return (options.seed = number_from<std::uint64_t>(value)).has_value();
+  if (key == "frames") return (options.frames = number_from<std::size_t>(value)).has_value();
+  if (key == "shuffle") return (options.shuffle = number_from<std::uint64_t>(value)).has_value();
   if (key == "fault") return !(options.fault = value)->empty();
   if (key == "fault_at") return apply_time(value, options.fault_at);
   if (key == "noise") {
@@ -44,7 +36,7 @@ bool apply(std::string_view key, std::string_view value, SimOptions& options) {
     return value == "on" || value == "off";
   }
   if (key == "cameras") {
-    options.cameras = whole_number<std::size_t>(value).value_or(0);
+    options.cameras = number_from<std::size_t>(value).value_or(0);
     return options.cameras >= 1 && options.cameras <= kMaxCameras;
   }
   if (key == "start") {

@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <system_error>
+
+#include "swiftlet/base/number_text.hpp"
 
 namespace swiftlet {
 
@@ -54,10 +55,7 @@ std::vector<TextRow> rows_of(std::string_view text) {
 
 std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);  // from_chars knows only the minus
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-  return value;
+  return number_from<double>(word);
 }
 
 }  // namespace swiftlet

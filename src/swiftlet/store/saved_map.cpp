@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
+#include "swiftlet/base/number_text.hpp"
 #include "swiftlet/store/block_codec.hpp"
 
 namespace swiftlet {
@@ -22,11 +22,7 @@ template <class T>
 std::optional<T> number_of(const MapMeta& meta, const std::string& key) {
   const auto line = meta.find(key);
   if (line == meta.end()) return std::nullopt;
-  T value{};
-  const char* end = line->second.data() + line->second.size();
-  const auto [stop, error] = std::from_chars(line->second.data(), end, value);
-  if (error != std::errc{} || stop != end) return std::nullopt;
-  return value;
+  return number_from<T>(line->second);
 }
 
 std::optional<std::string> fault_of(const BlockRow& row, BlockCodec& codec, VoxelBlock& out) {
