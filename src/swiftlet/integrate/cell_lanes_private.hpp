@@ -10,21 +10,13 @@
 #define SWIFTLET_CELL_LANES_PRIVATE
 #endif
 
-#include <hwy/highway.h>
-
 #include "swiftlet/integrate/cell_kernels.hpp"
+#include "swiftlet/integrate/float_lanes_private.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swiftlet {
 namespace HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-// No MulAdd: fused and not fused are different bits.
-using Floats = hn::CappedTag<float, 16>;
-using Ints = hn::RebindToSigned<Floats>;
-using FloatLanes = hn::Vec<Floats>;
-using IntLanes = hn::Vec<Ints>;
 
 /// Centres of cells relative to the camera [m].
 struct CellLanes {

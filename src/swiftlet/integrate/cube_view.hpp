@@ -65,11 +65,6 @@ class CubeView {
   /// All pixels that a footprint touches. REQUIRES: meets_image(f).
   [[nodiscard]] PixelRect pixels(const Footprint& f) const;
 
-  /// Where a point [m, camera] appears. REQUIRES: p[2] > 0.
-  [[nodiscard]] std::array<float, 2> project(const Float3& p) const {
-    return {fx_ * p[0] / p[2] + cx_, fy_ * p[1] / p[2] + cy_};
-  }
-
   /// The world's axes in camera axes.
   [[nodiscard]] std::array<Float3, 3> world_axis() const {
     std::array<Float3, 3> axes;

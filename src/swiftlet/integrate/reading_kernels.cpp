@@ -9,18 +9,14 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include "swiftlet/integrate/float_lanes_private.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace swiftlet {
 namespace HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, 16>;
-using Ints = hn::RebindToSigned<Floats>;
 using Raws = hn::Rebind<std::uint16_t, Floats>;
-using FloatLanes = hn::Vec<Floats>;
-
-using IntLanes = hn::Vec<Ints>;
 
 /// Four parts of each tile: readings, their mean depth and variance, and what they say by
 /// themselves.
@@ -124,11 +120,6 @@ void pixels(const std::uint16_t* upper, const std::uint16_t* lower, const Summar
   }
 }
 
-HWY_INLINE void load_pairs(const float* from, FloatLanes& even, FloatLanes& odd) {
-  constexpr Floats f;
-  hn::LoadInterleaved2(f, from, even, odd);
-}
-
 HWY_INLINE void load_voices(const std::int32_t* from, float unit_m, FloatLanes* voice) {
   constexpr Floats f;
   constexpr Ints i;
@@ -144,14 +135,16 @@ void merge(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row) 
   constexpr Floats f;
   for (int x = 0; x < row.tiles; x += static_cast<int>(hn::Lanes(f))) {
     Parts parts;
-    load_pairs(upper.count + 2 * x, parts.count[0], parts.count[1]);
-    load_pairs(lower.count + 2 * x, parts.count[2], parts.count[3]);
-    load_pairs(upper.mean_m + 2 * x, parts.mean[0], parts.mean[1]);
-    load_pairs(lower.mean_m + 2 * x, parts.mean[2], parts.mean[3]);
-    load_pairs(upper.variance_m2 + 2 * x, parts.variance[0], parts.variance[1]);
-    load_pairs(lower.variance_m2 + 2 * x, parts.variance[2], parts.variance[3]);
-    load_pairs(upper.per_deviation + 2 * x, parts.per_deviation[0], parts.per_deviation[1]);
-    load_pairs(lower.per_deviation + 2 * x, parts.per_deviation[2], parts.per_deviation[3]);
+    hn::LoadInterleaved2(f, upper.count + 2 * x, parts.count[0], parts.count[1]);
+    hn::LoadInterleaved2(f, lower.count + 2 * x, parts.count[2], parts.count[3]);
+    hn::LoadInterleaved2(f, upper.mean_m + 2 * x, parts.mean[0], parts.mean[1]);
+    hn::LoadInterleaved2(f, lower.mean_m + 2 * x, parts.mean[2], parts.mean[3]);
+    hn::LoadInterleaved2(f, upper.variance_m2 + 2 * x, parts.variance[0], parts.variance[1]);
+    hn::LoadInterleaved2(f, lower.variance_m2 + 2 * x, parts.variance[2], parts.variance[3]);
+    hn::LoadInterleaved2(f, upper.per_deviation + 2 * x, parts.per_deviation[0],
+                         parts.per_deviation[1]);
+    hn::LoadInterleaved2(f, lower.per_deviation + 2 * x, parts.per_deviation[2],
+                         parts.per_deviation[3]);
     load_voices(upper.mean_and_share + 2 * x, row.unit_m, parts.voice);
     load_voices(lower.mean_and_share + 2 * x, row.unit_m, parts.voice + 2);
     finish(parts, x, row);

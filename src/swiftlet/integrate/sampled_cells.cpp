@@ -92,7 +92,9 @@ struct ModelOf {
     const FloatLanes beyond = hn::Sub(hn::Add(z, hn::Mul(sigma, hn::Set(f, 3.0F))), s.z);
     constexpr auto kMostClass = static_cast<float>(EvidenceTable::kClasses - 1);
     const FloatLanes narrow = hn::Mul(hn::Mul(sigma, per_deviation), hn::Set(f, kMostClass));
-    const IntLanes of_class = hn::ConvertTo(i, hn::Add(narrow, hn::Set(f, 0.5F)));
+    // A mean is rounded to device units, so sigma may come out a little wide.
+    const IntLanes of_class =
+        hn::ConvertTo(i, hn::Min(hn::Add(narrow, hn::Set(f, 0.5F)), hn::Set(f, kMostClass)));
     static_assert(EvidenceTable::kClasses == 8);
     const IntLanes row = hn::ShiftLeft<3>(hn::ShiftRightSame(raw, frame.row_shift));
     const IntLanes first = hn::Mul(hn::Add(row, of_class), hn::Set(i, EvidenceTable::kColumns));

@@ -49,7 +49,6 @@ std::vector<Error> MapperConfig::faults() const {
   keep_fault(faults, "integrate.integrator",
              find_registered(integrators(), integrate.integrator, "integrator"));
   keep_fault(faults, "integrate.ray_method", find_ray_method(integrate.ray_method));
-  if (faults.empty()) keep_fault(faults, "integrate", make_integrator(integrate));
   if (faults.empty()) keep_fault(faults, "map", RollingMap::create(map));
   return faults;
 }
