@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-// Milliseconds a frame, from the conditioned depth image to the updated map, of every integrator
-// and of OctoMap, on the same frames of a simulated flight through the apartment: 848 x 480 pixels,
-// every one of them used, range 10 m.
+// Milliseconds a frame, from the conditioned depth image to the updated map, of every integrator on
+// the same frames of a simulated flight through the apartment: 848 x 480 pixels, every one of them
+// used, range 10 m. `swiftlet bench` measures whole mappers, beside OctoMap.
 
 #include <benchmark/benchmark.h>
 
@@ -12,10 +12,6 @@
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/source/sources.hpp"
-
-#if SWIFTLET_HAS_OCTOMAP
-#include <octomap/octomap.h>
-#endif
 
 namespace {
 
@@ -77,47 +73,5 @@ void projective(benchmark::State& state) { integrate(state, "projective"); }
 
 BENCHMARK(projective)->Arg(200)->Arg(100)->Arg(50)->Unit(benchmark::kMillisecond)->Iterations(120);
 BENCHMARK(rays)->Arg(200)->Arg(100)->Arg(50)->Unit(benchmark::kMillisecond)->Iterations(30);
-
-#if SWIFTLET_HAS_OCTOMAP
-
-octomap::Pointcloud cloud_of(const Frame& frame, const ConditionedDepth& depth) {
-  octomap::Pointcloud cloud;
-  cloud.reserve(depth.raw.pixels().size());
-  for (int v = 0; v < depth.raw.height(); ++v) {
-    for (int u = 0; u < depth.raw.width(); ++u) {
-      const std::uint16_t raw = depth.raw.at(u, v);
-      if (raw == 0) continue;
-      const Eigen::Vector3f p =
-          (frame.T_world_camera * frame.intrinsics.back_project(u, v, double{depth.unit_m} * raw))
-              .cast<float>();
-      cloud.push_back(p.x(), p.y(), p.z());
-    }
-  }
-  return cloud;
-}
-
-/// Point cloud conversion included, as its user has to do it.
-void octomap_insert(benchmark::State& state, bool is_discretised) {
-  const Flight& f = flight();
-  if (f.frames.empty()) return state.SkipWithError("the simulated rig was not built");
-  octomap::OcTree tree(voxel_of(state));
-  std::size_t i = 0;
-  for (auto _ : state) {
-    const Frame& frame = f.frames[i % f.frames.size()];
-    const Eigen::Vector3f origin = frame.T_world_camera.translation().cast<float>();
-    tree.insertPointCloud(cloud_of(frame, f.depths[i % f.frames.size()]),
-                          {origin.x(), origin.y(), origin.z()}, kRange_m, false, is_discretised);
-    ++i;
-  }
-  state.counters["map_MB"] = 1e-6 * static_cast<double>(tree.memoryUsage());
-}
-
-void octomap_plain(benchmark::State& state) { octomap_insert(state, false); }
-void octomap_discretised(benchmark::State& state) { octomap_insert(state, true); }
-
-BENCHMARK(octomap_plain)->Arg(200)->Arg(50)->Unit(benchmark::kMillisecond)->Iterations(20);
-BENCHMARK(octomap_discretised)->Arg(200)->Arg(50)->Unit(benchmark::kMillisecond)->Iterations(30);
-
-#endif
 
 }  // namespace
