@@ -11,7 +11,7 @@ namespace swiftlet {
 namespace {
 
 using test::block_full_of;
-using test::Folder;
+using test::TempFolder;
 
 /// One block that goes in and out of a window; which state does the file hold?
 class BatchOrder : public ::testing::Test {
@@ -44,7 +44,7 @@ class BatchOrder : public ::testing::Test {
   }
 
   static constexpr BlockIndex kBlock{0, 0, 0};
-  Folder folder_;
+  TempFolder folder_;
   std::filesystem::path path_ = folder_ / "a.swl";
   std::optional<BatchWriter> writer_;
   RollingMap map_ = test::small_map();

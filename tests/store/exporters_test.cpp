@@ -5,13 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdlib>
-#include <tuple>
 
 #if SWIFTLET_HAS_OCTOMAP
-#include <octomap/ColorOcTree.h>
-#include <octomap/OcTree.h>
+#include "store/octomap_leaves.hpp"
 #endif
 
 #include "store/store_support.hpp"
@@ -20,8 +17,8 @@
 namespace swiftlet {
 namespace {
 
-using test::Folder;
 using test::Random;
+using test::TempFolder;
 using Cells = std::map<VoxelIndex, Occupancy>;
 
 constexpr OccupancyThresholds kThresholds;
@@ -54,7 +51,7 @@ struct ExportedMap {
     EXPECT_FALSE(std::filesystem::exists(out.string() + ".part"));
     return out;
   }
-  Folder folder;
+  TempFolder folder;
   Cells cells;
   std::uint64_t occupied = 0;
 };
@@ -183,7 +180,7 @@ TEST(Exporters, liboctomap_reads_exactly_our_free_and_occupied_cells_from_ot) {
 }
 
 TEST(Exporters, refuse_cells_beyond_octomaps_key_space) {
-  Folder folder;
+  TempFolder folder;
   {
     auto store = TileStore::create(folder / "a.swl", 0.05);
     (*store)->evict({4095, 0, 0}, test::block_full_of(255), 1);  // cells up to 32767: the last
@@ -199,32 +196,11 @@ TEST(Exporters, refuse_cells_beyond_octomaps_key_space) {
   EXPECT_FALSE(std::filesystem::exists(folder / "b.bt"));
 }
 
-/// What our own reader makes of a file, next to what liboctomap makes of it.
-template <class Tree>
-void expect_same_leaves(const std::filesystem::path& path, const Tree& tree) {
-  std::vector<std::tuple<VoxelIndex, int, bool>> ours;
-  const auto read = read_octomap(path, [&](const OctomapLeaf& leaf) {
-    ours.emplace_back(leaf.first, leaf.edge, leaf.is_occupied);
-  });
-  ASSERT_TRUE(read.has_value()) << read.error().text();
-  std::vector<std::tuple<VoxelIndex, int, bool>> theirs;
-  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
-    const octomap::OcTreeKey k = leaf.getIndexKey();
-    theirs.emplace_back(VoxelIndex{k[0] - 32768, k[1] - 32768, k[2] - 32768},
-                        1 << (16 - leaf.getDepth()), tree.isNodeOccupied(*leaf));
-  }
-  std::ranges::sort(ours);
-  std::ranges::sort(theirs);
-  EXPECT_TRUE(ours == theirs) << ours.size() << " leaves, liboctomap has " << theirs.size();
-  EXPECT_EQ(read->nodes, tree.size());
-  EXPECT_EQ(read->voxel_m, tree.getResolution());
-}
-
 TEST(OctomapImport, reads_our_exports_as_liboctomap_does) {
   const ExportedMap map;
   octomap::OcTree tree(1.0);
   ASSERT_TRUE(tree.readBinary(map.write("bt").string()));
-  expect_same_leaves(map.folder / "a.bt", tree);
+  test::expect_same_leaves(map.folder / "a.bt", tree);
   const auto summary = read_octomap(map.write("ot"));
   ASSERT_TRUE(summary.has_value());
   EXPECT_EQ(summary->occupied_cells, map.occupied);
@@ -241,32 +217,6 @@ TEST(OctomapImport, every_truncated_file_is_an_error) {
       EXPECT_FALSE(read_octomap(map.folder / "cut").has_value()) << format << " " << length;
     }
   }
-}
-
-std::filesystem::path recorded(const char* name) {
-  const char* set = std::getenv("SWIFTLET_RECORDED");
-  return std::filesystem::path(set != nullptr ? set : SWIFTLET_RECORDED_DEFAULT) / "octomap" / name;
-}
-
-TEST(OctomapImport, reads_recorded_bt_files_as_liboctomap_does) {
-  if (!std::filesystem::exists(recorded("geb079.bt"))) {
-    GTEST_SKIP() << "no recordings at " << recorded("").string();
-  }
-  for (const char* name : {"geb079.bt", "octomap_python_test.bt", "octomap_tutor_sample.bt"}) {
-    octomap::OcTree tree(1.0);
-    ASSERT_TRUE(tree.readBinary(recorded(name).string()));
-    expect_same_leaves(recorded(name), tree);
-  }
-}
-
-TEST(OctomapImport, reads_a_recorded_colour_tree_and_names_its_kind) {
-  const auto path = recorded("octomap_tutor_sample.ot");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no recordings at " << path.string();
-  const std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read(path.string()));
-  const auto* tree = dynamic_cast<octomap::ColorOcTree*>(any.get());
-  ASSERT_NE(tree, nullptr);
-  expect_same_leaves(path, *tree);
-  EXPECT_EQ(read_octomap(path)->kind, "ColorOcTree");
 }
 
 #endif

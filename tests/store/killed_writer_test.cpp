@@ -17,8 +17,8 @@ namespace swiftlet {
 namespace {
 
 using namespace std::chrono_literals;
-using test::Folder;
 using test::Random;
+using test::TempFolder;
 
 /// The world of the flight below: in frame f the vehicle is at x = f blocks along a path that turns
 /// back, and writes f into the blocks around it. So each state of each block names its frame.
@@ -101,7 +101,7 @@ std::uint64_t kill_flight(const std::filesystem::path& path, std::chrono::micros
 TEST(KilledWriter, leaves_a_consistent_file_with_everything_up_to_the_last_batch) {
   Random random;
   for (int round = 0; round < 10; ++round) {
-    Folder folder;
+    TempFolder folder;
     const auto delay = std::chrono::microseconds(random.integer(0, 150'000));
     const std::uint64_t committed = kill_flight(folder / "a.swl", delay);
     EXPECT_TRUE(check_map(folder / "a.swl").empty()) << random.repeat();
@@ -143,7 +143,7 @@ int map_onto_a_full_disk(const std::filesystem::path& path) {
 }
 
 TEST(FullDisk, is_reported_and_leaves_what_was_written_intact) {
-  Folder folder;
+  TempFolder folder;
   const pid_t child = fork();
   if (child == 0) _exit(map_onto_a_full_disk(folder / "a.swl"));
   int status = 0;

@@ -12,8 +12,8 @@ namespace swiftlet {
 namespace {
 
 using test::Blocks;
-using test::Folder;
 using test::Random;
+using test::TempFolder;
 
 /// A map of a few hundred blocks, as a flight leaves it.
 Blocks write_map(const std::filesystem::path& path, Random& random) {
@@ -54,7 +54,7 @@ Blocks write_map(const std::filesystem::path& path, Random& random) {
 }
 
 TEST(MapFile, every_truncated_file_is_refused) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   write_map(folder / "a.swl", random);
   const auto whole = test::bytes_of(folder / "a.swl");
@@ -69,7 +69,7 @@ TEST(MapFile, every_truncated_file_is_refused) {
 }
 
 TEST(MapFile, no_flipped_bit_gives_a_wrong_block_or_a_crash) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   const Blocks truth = write_map(folder / "a.swl", random);
   const auto whole = test::bytes_of(folder / "a.swl");
@@ -110,7 +110,7 @@ TEST(MapFile, notices_every_change_that_sqlite_itself_calls_sound) {
         "DELETE FROM blocks WHERE (x, y, z) IN (SELECT x, y, z FROM blocks LIMIT 1)",
         "UPDATE meta SET value = '0.2' WHERE key = 'voxel_m'", "DELETE FROM meta",
         "DELETE FROM seal", "UPDATE seal SET blocks = blocks - 1", "DROP TABLE meta"}) {
-    Folder folder;
+    TempFolder folder;
     write_map(folder / "a.swl", random);
     ASSERT_TRUE(check_map(folder / "a.swl").empty());
     run_sql(folder / "a.swl", change);
@@ -119,7 +119,7 @@ TEST(MapFile, notices_every_change_that_sqlite_itself_calls_sound) {
 }
 
 TEST(MapFile, refuses_a_newer_version_by_name) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   write_map(folder / "a.swl", random);
   run_sql(folder / "a.swl", "PRAGMA user_version = 7");
@@ -130,7 +130,7 @@ TEST(MapFile, refuses_a_newer_version_by_name) {
 }
 
 TEST(MapFile, says_what_is_not_a_map) {
-  Folder folder;
+  TempFolder folder;
   run_sql(folder / "other.swl", "CREATE TABLE songs(name TEXT)");
   test::write_bytes(folder / "text.swl", std::vector<char>(5000, 'x'));
   test::write_bytes(folder / "empty.swl", {});

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -15,29 +14,12 @@
 #include <vector>
 
 #include "support/seeds.hpp"
+#include "support/temp_folder.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/store/saved_map.hpp"
 #include "swiftlet/store/tile_store.hpp"
 
 namespace swiftlet::test {
-
-/// A folder of its own for each test; removed at its end.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "swiftlet_store_XXXXXX").string();
-    EXPECT_NE(mkdtemp(name.data()), nullptr);
-    path_ = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::filesystem::path operator/(const char* name) const { return path_ / name; }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 using Blocks = std::map<BlockIndex, VoxelBlock>;
 

@@ -9,10 +9,10 @@ namespace swiftlet {
 namespace {
 
 using namespace std::chrono_literals;
-using test::Folder;
+using test::TempFolder;
 
 TEST(TileStoreCreation, refuses_to_overwrite_unless_told_and_then_starts_empty) {
-  Folder folder;
+  TempFolder folder;
   {
     auto store = TileStore::create(folder / "a.swl", 0.1).value();
     store->evict({1, 2, 3}, test::block_full_of(9), 1);
@@ -29,7 +29,7 @@ TEST(TileStoreCreation, refuses_to_overwrite_unless_told_and_then_starts_empty) 
 }
 
 TEST(TileStoreCreation, a_map_has_its_description_as_soon_as_it_has_its_name) {
-  Folder folder;  // so a writer that is killed before its first batch leaves a valid map
+  TempFolder folder;  // so a writer that is killed before its first batch leaves a valid map
   const MapMeta meta{{"voxel_m", "0.1"}, {"frames", "0"}, {"source", "somewhere"}};
   ASSERT_TRUE(MapFile::create(folder / "a.swl", false, meta));
   EXPECT_TRUE(check_map(folder / "a.swl").empty());
@@ -50,7 +50,7 @@ TEST(TileStoreCreation, says_where_it_cannot_write) {
 }
 
 TEST(TileStoreCreation, refuses_options_that_cannot_be_meant) {
-  Folder folder;
+  TempFolder folder;
   for (const TileStoreOptions& bad :
        {TileStoreOptions{.max_bytes = 1000}, TileStoreOptions{.batch_interval = 0ms},
         TileStoreOptions{.batch_interval = 1001ms}, TileStoreOptions{.pending_blocks = 0}}) {

@@ -16,8 +16,8 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::Blocks;
-using test::Folder;
 using test::Random;
+using test::TempFolder;
 
 std::unique_ptr<TileStore> make_store(const std::filesystem::path& path,
                                       TileStoreOptions options = {}) {
@@ -45,7 +45,7 @@ void change_some(RollingMap& map, Random& random, int blocks) {
 }
 
 TEST(TileStore, loading_a_saved_map_gives_the_map) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   for (int round = 0; round < 5; ++round) {
     RollingMap map = test::small_map();
@@ -63,7 +63,7 @@ TEST(TileStore, loading_a_saved_map_gives_the_map) {
 }
 
 TEST(TileStore, saving_twice_gives_the_same_bytes) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   RollingMap map = test::small_map();
   map.recentre({0, 0, 0}, nullptr);
@@ -75,7 +75,7 @@ TEST(TileStore, saving_twice_gives_the_same_bytes) {
 }
 
 TEST(TileStore, leaves_one_single_file_at_close) {
-  Folder folder;
+  TempFolder folder;
   auto store = make_store(folder / "a.swl");
   store->evict({1, 2, 3}, test::block_full_of(9), 1);
   ASSERT_TRUE(store->close());
@@ -85,7 +85,7 @@ TEST(TileStore, leaves_one_single_file_at_close) {
 }
 
 TEST(TileStore, gives_back_bit_for_bit_from_memory_from_cache_and_from_disk) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.batch_interval = 5ms});
   const BlockIndex index{3, 0, 0};
@@ -112,7 +112,7 @@ TEST(TileStore, gives_back_bit_for_bit_from_memory_from_cache_and_from_disk) {
 }
 
 TEST(TileStore, a_block_changed_after_it_was_read_ahead_comes_back_changed) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.batch_interval = 1ms});
   VoxelBlock back;
@@ -129,7 +129,7 @@ TEST(TileStore, a_block_changed_after_it_was_read_ahead_comes_back_changed) {
 
 // Model test: the window wanders at random over a world that a hash map remembers whole.
 TEST(TileStore, a_window_that_wanders_finds_everything_as_it_left_it) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.batch_interval = 2ms, .pending_blocks = 64});
   RollingMap map = test::small_map();
@@ -160,7 +160,7 @@ TEST(TileStore, a_window_that_wanders_finds_everything_as_it_left_it) {
 }
 
 TEST(TileStore, a_corridor_there_and_back_restores_every_block_that_was_evicted) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.batch_interval = 5ms});
   RollingMap map = test::small_map();
@@ -191,7 +191,7 @@ TEST(TileStore, a_corridor_there_and_back_restores_every_block_that_was_evicted)
 }
 
 TEST(TileStore, never_exceeds_the_cap_and_drops_the_oldest_first) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   constexpr std::uint64_t kCap = 256 * 1024;
   auto store = make_store(folder / "a.swl", {.max_bytes = kCap, .batch_interval = 2ms});
@@ -238,7 +238,7 @@ TEST(TileStore, never_exceeds_the_cap_and_drops_the_oldest_first) {
 }
 
 TEST(TileStore, policy_drop_keeps_the_window_and_nothing_else) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.policy = StorePolicy::kDrop, .batch_interval = 2ms});
   RollingMap map = test::small_map();
@@ -258,7 +258,7 @@ TEST(TileStore, policy_drop_keeps_the_window_and_nothing_else) {
 }
 
 TEST(TileStore, a_map_can_be_read_while_it_is_written) {
-  Folder folder;
+  TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.batch_interval = 1ms});
   std::atomic<bool> is_done = false;
