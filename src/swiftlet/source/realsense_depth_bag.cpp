@@ -8,13 +8,9 @@
 #include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/source/bag_scan.hpp"
 #include "swiftlet/source/depth_message.hpp"
+#include "swiftlet/source/realsense_messages.hpp"
 #include "swiftlet/source/realsense_topics.hpp"
-#include "swiftlet/source/t265_axes.hpp"
 #include "swiftlet/source/text_file.hpp"
-
-// Recordings of the RealSense SDK. A frame is several messages: its data, then its metadata as
-// pairs of words, tied to it by nothing but the same record time. So a frame is complete when the
-// next one of its stream begins, or the file ends.
 
 namespace swiftlet {
 namespace {
@@ -24,17 +20,6 @@ constexpr std::string_view kStereoBaseline = "Stereo_Baseline";  // in mm
 
 bool is_usable_unit(std::optional<float> unit_m) {
   return unit_m && std::isfinite(*unit_m) && *unit_m > 0.0F;
-}
-
-/// The next message. A fault of the file waits in `fault` while a frame from before it is pending:
-/// the stream seems to end, gives that frame, and then tells the fault.
-Expected<std::optional<BagMessage>> read_after(BagReader& reader, std::optional<Error>& fault,
-                                               bool is_pending) {
-  if (fault && !is_pending) return tl::make_unexpected(*std::exchange(fault, std::nullopt));
-  auto message = reader.next();
-  if (message || !is_pending) return message;
-  fault = std::move(message.error());
-  return std::nullopt;
 }
 
 struct DepthSetup {
@@ -133,70 +118,6 @@ class RealsenseDepth final : public DepthStream {
   std::optional<Error> fault_;
 };
 
-class RealsensePoses final : public PoseStream {
- public:
-  RealsensePoses(BagReader reader, const std::string& stream)
-      : reader_(std::move(reader)),
-        data_topic_(stream + "/pose/transform/data"),
-        metadata_topic_(stream + "/pose/metadata") {}
-
-  Expected<std::optional<PoseSample>> next() override {
-    while (true) {
-      auto message = read();
-      if (!message) return forward_error(std::move(message));
-      if (!*message) return finish();
-      const std::string& topic = (*message)->connection->topic;
-      if (topic == data_topic_) {
-        auto done = finish();
-        const auto pose = ros::parse_transform((*message)->data);
-        if (!pose)
-          return fail(ErrorCode::kCorruptInput, place_of(reader_, **message),
-                      "it is no pose message");
-        pending_.emplace(Pending{(*message)->record_time, *pose, {}, {}, {}});
-        if (done) return done;
-      } else if (topic == metadata_topic_ && pending_ &&
-                 pending_->record_time == (*message)->record_time) {
-        if (const auto pair = ros::parse_key_value((*message)->data)) note_metadata(*pair);
-      }
-    }
-  }
-
- private:
-  Expected<std::optional<BagMessage>> read() { return read_after(reader_, fault_, !!pending_); }
-
-  struct Pending {
-    Stamp record_time;
-    ros::Pose pose;
-    std::optional<Stamp> stamp;
-    std::uint8_t confidence = 0;
-    ClockDomain clock = ClockDomain::kUnspecified;
-  };
-
-  void note_metadata(const ros::KeyValue& pair) {
-    if (pair.key == "frame_timestamp") pending_->stamp = stamp_from_milliseconds(pair.value);
-    if (pair.key == "timestamp_domain") pending_->clock = clock_from_name(pair.value);
-    if (pair.key == "Tracker Confidence") {
-      const double confidence = parse_number(pair.value).value_or(0.0);
-      pending_->confidence =
-          confidence >= 1.0 && confidence <= 3.0 ? static_cast<std::uint8_t>(confidence) : 0;
-    }
-  }
-
-  /// A pose without a time, as the last one of a file that was cut off, is of no use to anyone.
-  std::optional<PoseSample> finish() {
-    const auto done = std::exchange(pending_, std::nullopt);
-    if (!done || !done->stamp) return std::nullopt;
-    PoseSample sample = from_t265(*done->stamp, done->pose.R, done->pose.t_m, done->confidence);
-    sample.clock = done->clock;
-    return sample;
-  }
-
-  BagReader reader_;
-  std::string data_topic_, metadata_topic_;
-  std::optional<Pending> pending_;
-  std::optional<Error> fault_;
-};
-
 /// Notes what a message before the first image tells of the camera.
 Status note_setup(const BagReader& reader, const BagMessage& message, DepthSetup& setup,
                   std::string& info_stream) {
@@ -220,11 +141,6 @@ Status note_setup(const BagReader& reader, const BagMessage& message, DepthSetup
     if (is_usable_unit(baseline_mm)) setup.baseline_m = double{*baseline_mm} * 1e-3;
   }
   return Done{};
-}
-
-bool is_realsense(const BagMessage& message) {
-  return message.connection->topic.starts_with("/device_") ||
-         message.connection->topic == "/file_version";
 }
 
 }  // namespace
@@ -259,29 +175,6 @@ Expected<std::optional<BagDepth>> open_realsense_depth(const std::filesystem::pa
                   {},
                   intrinsics,
                   setup.baseline_m};
-}
-
-Expected<std::optional<BagPoses>> open_realsense_poses(const std::filesystem::path& path) {
-  auto reader = open_bag(path);
-  if (!reader) return forward_error(std::move(reader));
-  std::optional<std::string> stream;
-  bool is_other_kind = false;
-  auto found = scan_bag(*reader, [&](const BagMessage& message) {
-    is_other_kind = !is_realsense(message);
-    stream = pose_stream_of(message.connection->topic);
-    return is_other_kind || stream.has_value();
-  });
-  if (!found) return forward_error(std::move(found));
-  if (is_other_kind) return std::nullopt;
-  if (!stream)
-    return no_such_topic(*reader, "it holds no poses",
-                         "the SDK writes one file a device: bag:depth.bag,pose.bag");
-  auto again = open_bag(path);
-  if (!again) return forward_error(std::move(again));
-  return BagPoses{std::make_unique<RealsensePoses>(std::move(*again), *stream),
-                  *stream + "/pose/transform/data",
-                  {},
-                  true};
 }
 
 }  // namespace swiftlet
