@@ -13,6 +13,7 @@
 #include "swiftlet/condition/depth_step.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/ray_method.hpp"
+#include "swiftlet/sim/built_in_scenes.hpp"
 #include "swiftlet/source/sources.hpp"
 #include "swiftlet/store/exporters.hpp"
 
@@ -33,6 +34,18 @@ std::vector<Listed> listed(std::span<const Registered<Make>> table) {
   for (const auto& e : table) {
     lines.push_back(
         {std::string(e.name), std::string(e.summary), e.make != nullptr, std::string(e.needs)});
+  }
+  return lines;
+}
+
+/// Scenes can be flown where the source that flies them is built.
+std::vector<Listed> listed_scenes() {
+  const auto simulator = find_registered(sources(), "sim", "source");
+  const bool is_built = simulator && simulator->make != nullptr;
+  const std::string needs(simulator ? simulator->needs : "");
+  std::vector<Listed> lines;
+  for (const sim::BuiltInScene& scene : sim::built_in_scenes()) {
+    lines.push_back({std::string(scene.name), std::string(scene.about), is_built, needs});
   }
   return lines;
 }
@@ -63,6 +76,7 @@ struct Kind {
 };
 const std::array kKinds{
     Kind{"sources", "swiftlet map NAME:...", [] { return listed(sources()); }},
+    Kind{"scenes", "swiftlet map sim:NAME", listed_scenes},
     Kind{"steps", "parameter depth.steps", [] { return listed(depth_steps()); }},
     Kind{"rays", "swiftlet map --rays", listed_rays},
     Kind{"integrators", "parameter integrate.integrator", [] { return listed(integrators()); }},

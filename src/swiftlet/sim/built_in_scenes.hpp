@@ -11,6 +11,7 @@ namespace swiftlet::sim {
 /// A file of sim/scenes/, embedded by cmake/embed_scenes.cmake.
 struct BuiltInScene {
   std::string_view name;
+  std::string_view about;  ///< its line of that key
   std::string_view yaml;
 };
 
