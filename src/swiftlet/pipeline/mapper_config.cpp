@@ -13,15 +13,23 @@
 namespace swiftlet {
 namespace {
 
-void check(std::vector<Error>& faults, const ConfigField& field, double value) {
-  if (value >= field.min && value <= field.max) return;  // false for NaN, too
-  faults.push_back({ErrorCode::kInvalidConfig, std::string(field.key),
-                    fmt::format("{} cannot be used", value),
+bool is_within(const ConfigField& field, double value) {
+  return value >= field.min && value <= field.max;  // false for NaN, too
+}
+
+void refuse(std::vector<Error>& faults, const ConfigField& field, const std::string& value) {
+  faults.push_back({ErrorCode::kInvalidConfig, std::string(field.key), value + " cannot be used",
                     fmt::format("choose a value from {} to {}", field.min, field.max)});
 }
 
+void check(std::vector<Error>& faults, const ConfigField& field, double value) {
+  if (!is_within(field, value)) refuse(faults, field, fmt::format("{}", value));
+}
+
 void check(std::vector<Error>& faults, const ConfigField& field, const Eigen::Vector3d& value) {
-  for (const double v : value) check(faults, field, v);
+  if (is_within(field, value.x()) && is_within(field, value.y()) && is_within(field, value.z()))
+    return;
+  refuse(faults, field, fmt::format("[{}, {}, {}]", value.x(), value.y(), value.z()));
 }
 
 void check(std::vector<Error>&, const ConfigField&, const std::string&) {}
@@ -41,7 +49,7 @@ std::vector<Error> MapperConfig::faults() const {
   std::vector<Error> faults;
   visit_config(*this,
                [&](const ConfigField& field, const auto& value) { check(faults, field, value); });
-  if (!(depth.min_range_m < depth.max_range_m)) {
+  if (depth.min_range_m >= depth.max_range_m) {  // NaN is told above
     faults.push_back(
         {ErrorCode::kInvalidConfig, "depth.min_range_m", "is not below depth.max_range_m", {}});
   }
