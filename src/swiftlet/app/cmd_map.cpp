@@ -13,31 +13,12 @@
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/mapping_session.hpp"
 #include "swiftlet/app/progress.hpp"
-#include "swiftlet/source/address_options.hpp"
+#include "swiftlet/app/rig_flags.hpp"
 #include "swiftlet/source/real_time_source.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace swiftlet::app {
 namespace {
-
-/// Flags that stand for options of the source's address.
-struct RigFlags {
-  std::string rig, pairing, on_jump, depth_topic, info_topic, pose_topic, body_frame;
-
-  [[nodiscard]] std::string added_to(std::string address) const {
-    const std::pair<std::string_view, const std::string*> options[]{{"rig", &rig},
-                                                                    {"pairing", &pairing},
-                                                                    {"on_jump", &on_jump},
-                                                                    {"depth_topic", &depth_topic},
-                                                                    {"info_topic", &info_topic},
-                                                                    {"pose_topic", &pose_topic},
-                                                                    {"body_frame", &body_frame}};
-    for (const auto& [key, value] : options) {
-      if (!value->empty()) address = with_option(std::move(address), key, *value);
-    }
-    return address;
-  }
-};
 
 struct MapOptions {
   std::string source;
@@ -69,7 +50,7 @@ Status check_output(const MapOptions& options) {
 tl::expected<LoadedConfig, Faults> config_of(const MapOptions& options) {
   ConfigInput input = options.config;
   if (!options.rays.empty()) {
-    input.settings.push_back("integrate.integrator=rays");
+    input.settings.emplace_back("integrate.integrator=rays");
     input.settings.push_back("integrate.ray_method=" + options.rays);
   }
   return load_config(input);
@@ -202,24 +183,7 @@ Action declare_map(CLI::App& parser) {
       ->type_name("N");
   parser.add_flag("--realtime", o->in_real_time,
                   "play at recorded speed and lose frames when late, as a live rig does");
-  const auto rig_flag = [&](const char* name, std::string& value, const char* meaning) {
-    return parser.add_option(name, value, meaning)->group("Rig");
-  };
-  rig_flag("--rig", o->rig.rig, "cameras, mounts and gates, as a YAML file (docs/rig.md)")
-      ->type_name("FILE");
-  rig_flag("--pairing", o->rig.pairing, "pose of an image: interpolate (default) or nearest")
-      ->type_name("HOW");
-  rig_flag("--on-jump", o->rig.on_jump,
-           "when the tracker corrects itself: keep (default) or clear the map")
-      ->type_name("WHAT");
-  rig_flag("--depth-topic", o->rig.depth_topic, "of a ROS bag, see 'swiftlet info FILE.bag'")
-      ->type_name("TOPIC");
-  rig_flag("--info-topic", o->rig.info_topic, "CameraInfo; default: camera_info beside the images")
-      ->type_name("TOPIC");
-  rig_flag("--pose-topic", o->rig.pose_topic, "Odometry, PoseStamped, TransformStamped or tf")
-      ->type_name("TOPIC");
-  rig_flag("--body-frame", o->rig.body_frame, "which frame of a tf topic is the vehicle")
-      ->type_name("FRAME");
+  declare_rig_flags(parser, o->rig);
   parser.add_option("--store", o->store, "what leaves the window: keep it in the file or drop it")
       ->check(CLI::IsMember({"keep", "drop"}))
       ->capture_default_str();

@@ -23,9 +23,9 @@ bool is_surely_free(const VoxelBlock* block, int edge, int offset) {
   std::uint64_t any = 0;
   for (int z = 0; z < edge; ++z) {
     for (int y = 0; y < edge; ++y) {
-      const auto first = static_cast<std::size_t>(offset + kBlockEdge * (y + kBlockEdge * z));
+      const int first = offset + kBlockEdge * (y + kBlockEdge * z);
       std::uint64_t row = 0;
-      std::memcpy(&row, &block->cells[first], static_cast<std::size_t>(edge));
+      std::memcpy(&row, block->cells.data() + first, static_cast<std::size_t>(edge));
       any |= row;
     }
   }

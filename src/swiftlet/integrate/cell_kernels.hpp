@@ -48,7 +48,7 @@ struct CellList {
   void add(int place) {
     offset[count] = static_cast<std::uint16_t>(place);
     x[count] = static_cast<float>(place % kBlockEdge);
-    y[count] = static_cast<float>(place / kBlockEdge % kBlockEdge);
+    y[count] = static_cast<float>((place / kBlockEdge) % kBlockEdge);
     z[count] = static_cast<float>(place / (kBlockEdge * kBlockEdge));
     ++count;
   }

@@ -14,8 +14,7 @@
 #include "swiftlet/integrate/float_lanes_private.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace swiftlet {
-namespace HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
+namespace swiftlet::HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 namespace {
 
 /// Centres of cells relative to the camera [m].
@@ -51,8 +50,7 @@ HWY_INLINE IntLanes fixed_steps(const FrameInView& frame, FloatLanes log_odds) {
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace swiftlet
+}  // namespace swiftlet::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -76,7 +76,7 @@ DepthRange DepthPyramid::range_of(const PixelRect& rect) const {
   // The level whose tiles are at most half as wide as the rectangle: at most 3 x 3 tiles, and
   // little more than what was asked for.
   const auto longest = static_cast<unsigned>(std::max(rect.u1 - rect.u0, rect.v1 - rect.v0) + 1);
-  const int wanted = std::bit_width(longest) - 2 - kTileShift;
+  const int wanted = static_cast<int>(std::bit_width(longest)) - 2 - kTileShift;
   const int index = std::clamp(wanted, 0, static_cast<int>(levels_.size()) - 1);
   const int shift = kTileShift + index;
   DepthRange range;

@@ -12,8 +12,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace swiftlet {
-namespace HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
+namespace swiftlet::HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -69,8 +68,7 @@ std::size_t tile_row(const std::uint16_t* const rows[kTile], int tiles, DepthTil
 int lanes() { return static_cast<int>(hn::Lanes(Raws())); }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace swiftlet
+}  // namespace swiftlet::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

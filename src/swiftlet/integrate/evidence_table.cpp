@@ -80,8 +80,9 @@ void EvidenceTable::start_over(const Key& key, const InverseSensorModel& model) 
 }
 
 void EvidenceTable::add_row(const StereoSensor& sensor) {
-  const auto row = static_cast<double>(rise_.size() / kRowLength);
-  const double sigma_m = sensor.noise().sigma_m(double{unit_m_} * (row + 0.5) * (1 << shift_));
+  const std::size_t row = rise_.size() / kRowLength;
+  const double sigma_m =
+      sensor.noise().sigma_m(double{unit_m_} * (static_cast<double>(row) + 0.5) * (1 << shift_));
   const ModelCurve curve(sensor.model(), sigma_m);
   for (int c = 0; c < kClasses; ++c) {
     const double narrow = std::max(kNarrowest, static_cast<double>(c) / (kClasses - 1));
@@ -94,7 +95,7 @@ void EvidenceTable::add_row(const StereoSensor& sensor) {
         rise += curve.at(std::min(d_sigma, 0.0));
         fall += curve.at(std::max(d_sigma, 0.0)) - curve.peak();
       }
-      const double draws = static_cast<double>(normal_draws().size());
+      const auto draws = static_cast<double>(normal_draws().size());
       rise_.push_back(static_cast<float>(rise / draws));
       fall_.push_back(static_cast<float>(fall / draws));
     }

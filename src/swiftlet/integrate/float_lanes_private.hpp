@@ -13,8 +13,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace swiftlet {
-namespace HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
+namespace swiftlet::HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -25,8 +24,7 @@ using FloatLanes = hn::Vec<Floats>;
 using IntLanes = hn::Vec<Ints>;
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace swiftlet
+}  // namespace swiftlet::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -14,8 +14,7 @@
 #include "swiftlet/integrate/cell_lanes_private.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace swiftlet {
-namespace HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
+namespace swiftlet::HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 namespace {
 
 constexpr int kRowLanes = 4;  // lanes 0..3 are neighbours along x, 4..7 the next row along y
@@ -59,8 +58,8 @@ void free_cells(const FrameInView& frame, const CellCube& cube, FixedSteps* evid
             hn::Mul(observations(frame, cells), hn::Set(f, frame.free_log_odds));
         HWY_ALIGN FixedSteps lanes[16];
         hn::Store(fixed_steps(frame, log_odds), i, lanes);
-        FixedSteps* first = evidence + cube.offset + kBlockEdge * (y + kBlockEdge * z) + x;
-        for (int row = 0; row < rows; ++row)
+        FixedSteps* first = evidence + (cube.offset + kBlockEdge * (y + kBlockEdge * z) + x);
+        for (std::ptrdiff_t row = 0; row < rows; ++row)
           std::memcpy(first + kBlockEdge * row, lanes + kRowLanes * row,
                       kRowLanes * sizeof(FixedSteps));
       }
@@ -69,8 +68,7 @@ void free_cells(const FrameInView& frame, const CellCube& cube, FixedSteps* evid
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace swiftlet
+}  // namespace swiftlet::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

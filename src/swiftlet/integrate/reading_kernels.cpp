@@ -12,8 +12,7 @@
 #include "swiftlet/integrate/float_lanes_private.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace swiftlet {
-namespace HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
+namespace swiftlet::HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 namespace {
 
 using Raws = hn::Rebind<std::uint16_t, Floats>;
@@ -41,7 +40,7 @@ HWY_INLINE FloatLanes draw(std::uint32_t seed, int x) {
   return hn::Mul(hn::ConvertTo(f, h), hn::Set(f, 1.0F / 16777216.0F));
 }
 
-HWY_INLINE void finish(const Parts& p, int x, const SummaryRow& row) {
+HWY_INLINE void finish(const Parts& p, std::ptrdiff_t x, const SummaryRow& row) {
   constexpr Floats f;
   constexpr Ints i;
   const FloatLanes one = hn::Set(f, 1.0F);
@@ -71,7 +70,7 @@ HWY_INLINE void finish(const Parts& p, int x, const SummaryRow& row) {
                                   hn::Set(f, row.most_scatter_m * row.most_scatter_m));
   const auto is_edge = hn::Gt(variance, most);
   if (!hn::AllFalse(f, is_edge)) {
-    FloatLanes left = hn::Mul(draw(row.seed, x), count);
+    FloatLanes left = hn::Mul(draw(row.seed, static_cast<int>(x)), count);
     FloatLanes drawn = p.voice[0], drawn_per_deviation = p.per_deviation[0];
     for (int k = 1; k < 4; ++k) {
       left = hn::Sub(left, p.count[k - 1]);
@@ -102,7 +101,7 @@ void pixels(const std::uint16_t* upper, const std::uint16_t* lower, const Summar
   constexpr Ints i;
   constexpr Raws r;
   const FloatLanes unit = hn::Set(f, row.unit_m);
-  for (int x = 0; x < row.tiles; x += static_cast<int>(hn::Lanes(f))) {
+  for (std::ptrdiff_t x = 0; x < row.tiles; x += static_cast<std::ptrdiff_t>(hn::Lanes(f))) {
     hn::Vec<Raws> raw[4];
     hn::LoadInterleaved2(r, upper + 2 * x, raw[0], raw[1]);
     hn::LoadInterleaved2(r, lower + 2 * x, raw[2], raw[3]);
@@ -133,7 +132,7 @@ HWY_INLINE void load_voices(const std::int32_t* from, float unit_m, FloatLanes* 
 
 void merge(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row) {
   constexpr Floats f;
-  for (int x = 0; x < row.tiles; x += static_cast<int>(hn::Lanes(f))) {
+  for (std::ptrdiff_t x = 0; x < row.tiles; x += static_cast<std::ptrdiff_t>(hn::Lanes(f))) {
     Parts parts;
     hn::LoadInterleaved2(f, upper.count + 2 * x, parts.count[0], parts.count[1]);
     hn::LoadInterleaved2(f, lower.count + 2 * x, parts.count[2], parts.count[3]);
@@ -152,8 +151,7 @@ void merge(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row) 
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace swiftlet
+}  // namespace swiftlet::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

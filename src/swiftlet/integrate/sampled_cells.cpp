@@ -14,8 +14,7 @@
 #include "swiftlet/integrate/cell_lanes_private.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace swiftlet {
-namespace HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
+namespace swiftlet::HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 namespace {
 
 /// One sample for each of several cells: where their rays enter them, and the tile they end in.
@@ -180,8 +179,7 @@ void sampled_cells(const FrameInView& frame, const CellCube& block, const CellLi
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace swiftlet
+}  // namespace swiftlet::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
