@@ -10,6 +10,15 @@
 
 #include "swiftlet/base/expected.hpp"
 
+// For a table whose lines need a build option: SWIFTLET_IF_BUILT(SWIFTLET_HAS_..., function) is the
+// function where the option is 1, and nullptr where it is 0. A function whose part was not built
+// must not even be named: there is nothing to link.
+#define SWIFTLET_IF_BUILT(built, function) SWIFTLET_IF_BUILT_EXPANDED(built, function)
+#define SWIFTLET_IF_BUILT_EXPANDED(built, function) SWIFTLET_IF_BUILT_##built(function)
+#define SWIFTLET_IF_BUILT_1(function) function
+#define SWIFTLET_IF_BUILT_0(function) nullptr
+#define SWIFTLET_HAS_ALWAYS 1
+
 namespace swiftlet {
 
 /// One line of a registry: a name the user types, a sentence for `swiftlet list`, and how to make

@@ -46,10 +46,11 @@ struct CellList {
   alignas(64) std::array<float, kBlockVoxels + kSpare> x{}, y{}, z{};  ///< cells from its first
 
   void add(int place) {
+    const int row = place / kBlockEdge, layer = row / kBlockEdge;
     offset[count] = static_cast<std::uint16_t>(place);
     x[count] = static_cast<float>(place % kBlockEdge);
-    y[count] = static_cast<float>((place / kBlockEdge) % kBlockEdge);
-    z[count] = static_cast<float>(place / (kBlockEdge * kBlockEdge));
+    y[count] = static_cast<float>(row % kBlockEdge);
+    z[count] = static_cast<float>(layer);
     ++count;
   }
 };

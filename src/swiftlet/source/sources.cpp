@@ -21,13 +21,6 @@
     "live RealSense D400 and T265: realsense: or realsense:SERIAL")                             \
   X(EMBREE, "sim", open_sim_source, "simulated D435 and T265 in a built-in scene or a .yaml file")
 
-// An opener whose part was not built must not even be named: there is nothing to link.
-#define SWIFTLET_IF_BUILT_1(opener) opener
-#define SWIFTLET_IF_BUILT_0(opener) nullptr
-#define SWIFTLET_PICK(built, opener) SWIFTLET_IF_BUILT_##built(opener)
-#define SWIFTLET_IF_BUILT(built, opener) SWIFTLET_PICK(built, opener)
-#define SWIFTLET_HAS_ALWAYS 1
-
 namespace swiftlet {
 
 #define SWIFTLET_DECLARE(option, name, opener, summary) \

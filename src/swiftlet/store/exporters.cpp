@@ -23,20 +23,11 @@ SWIFTLET_EXPORTERS(SWIFTLET_DECLARE)
 #undef SWIFTLET_DECLARE
 
 std::span<const Registered<ExportMap>> exporters() {
-#define SWIFTLET_MAKE_0(name) nullptr
-#define SWIFTLET_MAKE_1(name) export_##name
-#define SWIFTLET_PICK(is_built, name) SWIFTLET_MAKE_##is_built(name)
-#define SWIFTLET_MAKE(is_built, name) SWIFTLET_PICK(is_built, name)
-#define SWIFTLET_HAS_ALWAYS 1
-#define SWIFTLET_LINE(name, option, summary) \
-  Registered<ExportMap>{#name, summary, SWIFTLET_MAKE(SWIFTLET_HAS_##option, name), #option},
+#define SWIFTLET_LINE(name, option, summary)                                                     \
+  Registered<ExportMap>{#name, summary, SWIFTLET_IF_BUILT(SWIFTLET_HAS_##option, export_##name), \
+                        #option},
   static constexpr std::array kExporters{SWIFTLET_EXPORTERS(SWIFTLET_LINE)};
 #undef SWIFTLET_LINE
-#undef SWIFTLET_HAS_ALWAYS
-#undef SWIFTLET_MAKE
-#undef SWIFTLET_PICK
-#undef SWIFTLET_MAKE_1
-#undef SWIFTLET_MAKE_0
   return kExporters;
 }
 
