@@ -43,30 +43,22 @@ struct FrameEvidence::Work {
 };
 
 FrameEvidence::FrameEvidence(const CubeView& view, const DepthPyramid& pyramid,
-                             const ReadingSummaries& summaries, const EvidenceTable& table,
-                             const FrameInView& frame, std::uint64_t frame_number)
+                             const ReadingSummaries& summaries, const FrameInView& frame,
+                             std::uint64_t frame_number)
     : view_(view),
-      pyramid_(pyramid),
+      tiles_(pyramid.tiles()),
       summaries_(summaries),
-      table_(table),
       frame_(frame),
-      frame_number_(frame_number) {
-  const Float3& a = view.optical_axis();
-  slice_inset_m_ = 0.5F * frame.voxel_m * (std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]) - 1.0F);
-}
+      frame_number_(frame_number) {}
 
-Verdict FrameEvidence::judge(const CubeInView& cube) const {
-  if (cube.z_near() < 0.5F * frame_.voxel_m)
-    return view_.meets_frustum(cube) ? Verdict::kMixed : Verdict::kNothing;
-  const Footprint f = view_.footprint(cube);
-  if (!view_.meets_image(f)) return Verdict::kNothing;
-  const DepthRange range = pyramid_.range_of(view_.pixels(f));
-  if (!range.has_readings()) return Verdict::kNothing;
-  if (cube.z_near() + slice_inset_m_ > table_.reach_m(range.farthest)) return Verdict::kNothing;
-  if (cube.z_far() - slice_inset_m_ >= table_.clear_m(range)) return Verdict::kMixed;
-  const bool is_whole =
-      range.is_complete && view_.is_inside_image(f) && cube.z_near() > kNearCells * frame_.voxel_m;
-  return is_whole ? Verdict::kFree : Verdict::kSeen;
+void FrameEvidence::judge_halves(const CubeInView& cube, int edge, Verdict verdict,
+                                 Verdicts& verdicts) const {
+  verdicts.fill(verdict);
+  if (verdict == Verdict::kFree) return;
+  CubeBatch halves;
+  for (int i = 0; i < 8; ++i) halves.add(view_.child(cube, edge, i).p_camera);
+  for (int i = 0; i < 3; ++i) halves.half_camera[i] = 0.5F * cube.half_camera[i];
+  judge(halves, verdicts);
 }
 
 CellCube FrameEvidence::cells_of(const CubeInView& cube, int edge, int offset) const {
@@ -124,18 +116,20 @@ void FrameEvidence::descend(const CubeInView& cube, int edge, int offset, Verdic
     work.has_free = true;
     return;
   }
-  if (edge == 1) {
-    (verdict == Verdict::kMixed ? work.evidence.sampled : work.evidence.passed).add(offset);
+  // What passes a cube passes its parts; single cells are not worth the question.
+  if (edge == 2 || (edge == 4 && verdict != Verdict::kMixed)) {
+    CellList& cells = verdict == Verdict::kMixed ? work.evidence.sampled : work.evidence.passed;
+    cells.add_cube(offset, edge);
     return;
   }
   const int half = edge / 2;
+  Verdicts verdicts;
+  judge_halves(cube, half, verdict, verdicts);
   for (int i = 0; i < 8; ++i) {
     const int x = i & 1, y = (i >> 1) & 1, z = i >> 2;
-    const CubeInView part = view_.child(cube, half, x, y, z);
-    // What passes a cube passes its parts; single cells are not worth the question.
-    const bool is_known = half == 1 || (verdict != Verdict::kMixed && half < 4);
+    const CubeInView part = view_.child(cube, half, i);
     descend(part, half, offset + half * (x + kBlockEdge * (y + kBlockEdge * z)),
-            is_known ? verdict : judge(part), work);
+            verdicts[static_cast<std::size_t>(i)], work);
     // Near the camera, each part of a block needs samples of its own.
     if (edge == kBlockEdge && cube.p_camera[2] < kFarCells * frame_.voxel_m) look(part, work);
   }

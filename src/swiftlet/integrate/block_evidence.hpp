@@ -7,19 +7,11 @@
 #include <cstdint>
 
 #include "swiftlet/integrate/cell_kernels.hpp"
-#include "swiftlet/integrate/depth_pyramid.hpp"
+#include "swiftlet/integrate/cube_judge.hpp"
 #include "swiftlet/integrate/reading_tiles.hpp"
 #include "swiftlet/map/voxel_block.hpp"
 
 namespace swiftlet {
-
-/// What a frame can say about a cube of cells.
-enum class Verdict : std::uint8_t {
-  kNothing,  ///< out of view, without readings, or hidden behind them
-  kFree,     ///< every pixel of its image has a reading that passes it
-  kSeen,     ///< every reading of its image passes it; some pixels have none
-  kMixed,    ///< may hold a surface, or is too near to tell
-};
 
 /// Where the evidence of one block is put together.
 struct BlockEvidence {
@@ -33,10 +25,15 @@ struct BlockEvidence {
 class FrameEvidence {
  public:
   FrameEvidence(const CubeView& view, const DepthPyramid& pyramid,
-                const ReadingSummaries& summaries, const EvidenceTable& table,
-                const FrameInView& frame, std::uint64_t frame_number);
+                const ReadingSummaries& summaries, const FrameInView& frame,
+                std::uint64_t frame_number);
 
-  [[nodiscard]] Verdict judge(const CubeInView& cube) const;
+  void judge(const CubeBatch& cubes, Verdicts& verdicts) const {
+    judge_cubes(frame_, tiles_, cubes, verdicts);
+  }
+  /// The eight halves of a cube, as CubeView::child counts them; `edge` [cells] is theirs. What
+  /// passes a cube passes its halves: those of a free one need no look.
+  void judge_halves(const CubeInView& cube, int edge, Verdict verdict, Verdicts& verdicts) const;
 
   /// The evidence for a block that was judged so. Cells that `known` shows to be surely free may be
   /// left out where they are free. False if there is none.
@@ -44,21 +41,16 @@ class FrameEvidence {
                BlockEvidence& evidence) const;
 
  private:
-  /// Nearer than so many cells, the formula for the area of a cell's image is too rough.
-  static constexpr float kNearCells = 4.0F;
-
   struct Work;
   void descend(const CubeInView& cube, int edge, int offset, Verdict verdict, Work& work) const;
   void look(const CubeInView& cube, Work& work) const;
   [[nodiscard]] CellCube cells_of(const CubeInView& cube, int edge, int offset) const;
 
   const CubeView& view_;
-  const DepthPyramid& pyramid_;
+  PyramidTiles tiles_;
   const ReadingSummaries& summaries_;
-  const EvidenceTable& table_;
   const FrameInView& frame_;
   std::uint64_t frame_number_;
-  float slice_inset_m_;  // from the nearest point of a cell's cube to the nearest of its slice
 };
 
 }  // namespace swiftlet

@@ -22,6 +22,7 @@ struct FrameInView {
   float u_offset, v_offset;  ///< principal point + 0.5: floor() of a place is its pixel
   float width, height;
   float voxel_m;
+  float slice_inset_m;  ///< from the nearest point of a cell's cube to the nearest of its slice
   float unit_m, sigma_per_z2;
   const float *rise, *fall;  ///< EvidenceTable
   std::int32_t row_shift;
@@ -45,6 +46,14 @@ struct CellList {
   std::array<std::uint16_t, kBlockVoxels> offset;                      ///< in the block
   alignas(64) std::array<float, kBlockVoxels + kSpare> x{}, y{}, z{};  ///< cells from its first
 
+  void add_cube(int first, int edge) {
+    for (int row = 0; row < edge * edge; ++row) {
+      const int place = first + kBlockEdge * (row % edge + kBlockEdge * (row / edge));
+      for (int i = 0; i < edge; ++i) add(place + i);
+    }
+  }
+
+ private:
   void add(int place) {
     const int row = place / kBlockEdge, layer = row / kBlockEdge;
     offset[count] = static_cast<std::uint16_t>(place);

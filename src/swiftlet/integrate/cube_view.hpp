@@ -9,7 +9,6 @@
 
 #include "swiftlet/condition/conditioned_depth.hpp"
 #include "swiftlet/frame/intrinsics.hpp"
-#include "swiftlet/integrate/depth_pyramid.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 
 namespace swiftlet {
@@ -31,11 +30,6 @@ struct CubeInView {
   [[nodiscard]] float z_far() const { return p_camera[2] + half_camera[2]; }
 };
 
-/// Rectangle in pixel coordinates; pixel u covers [u - 0.5, u + 0.5).
-struct Footprint {
-  float u0, v0, u1, v1;
-};
-
 /// One posed depth image, looked at from the side of the cells. Pixels are those of the reduced
 /// image: n x n pixels of the full one each.
 class CubeView {
@@ -49,21 +43,18 @@ class CubeView {
 
   /// A cube of `edge` cells a side whose first cell is `first`.
   [[nodiscard]] CubeInView cube(const VoxelIndex& first, int edge) const;
-  /// The cube of `edge` cells of a larger one, by its place among its siblings (0 or 1 each axis).
-  [[nodiscard]] CubeInView child(const CubeInView& parent, int edge, int x, int y, int z) const;
-
-  /// Bounds of the cube's image. REQUIRES: z_near() > 0.
-  [[nodiscard]] Footprint footprint(const CubeInView& cube) const;
-  [[nodiscard]] bool meets_image(const Footprint& f) const {
-    return f.u1 >= -0.5F && f.v1 >= -0.5F && f.u0 <= u_edge_ && f.v0 <= v_edge_;
+  /// One of the eight halves, `edge` cells wide, of a cube: the bits of `place` tell its side along
+  /// x, y and z.
+  [[nodiscard]] CubeInView child(const CubeInView& parent, int edge, int place) const {
+    const float step = 0.5F * static_cast<float>(edge) * voxel_m_;
+    CubeInView cube;
+    for (int i = 0; i < 3; ++i) {
+      cube.p_world[i] = parent.p_world[i] + (((place >> i) & 1) == 0 ? -step : step);
+      cube.p_camera[i] = parent.p_camera[i] + step * to_child_[static_cast<std::size_t>(place)][i];
+      cube.half_camera[i] = 0.5F * parent.half_camera[i];
+    }
+    return cube;
   }
-  /// Whether any of a cube that the camera's plane may cut lies between the four sides of the view.
-  [[nodiscard]] bool meets_frustum(const CubeInView& cube) const;
-  [[nodiscard]] bool is_inside_image(const Footprint& f) const {
-    return f.u0 >= -0.5F && f.v0 >= -0.5F && f.u1 <= u_edge_ && f.v1 <= v_edge_;
-  }
-  /// All pixels that a footprint touches. REQUIRES: meets_image(f).
-  [[nodiscard]] PixelRect pixels(const Footprint& f) const;
 
   /// The world's axes in camera axes.
   [[nodiscard]] std::array<Float3, 3> world_axis() const {
@@ -82,10 +73,10 @@ class CubeView {
   float voxel_m_;
   std::array<double, 3> camera_m_;     // where the camera is [m, world]
   std::array<Float3, 3> camera_axis_;  // its axes x, y, z [world]
+  std::array<Float3, 8> to_child_;     // of a cube of half edge 2, in camera axes
   Float3 half_extent_;                 // of a cube of half edge 1, in camera axes
   float fx_, fy_, cx_, cy_;
   int width_, height_;
-  float u_edge_, v_edge_;
 };
 
 }  // namespace swiftlet

@@ -5,16 +5,19 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 
 #include "swiftlet/integrate/depth_tiles.hpp"
 
 namespace swiftlet {
 namespace {
 
-/// Pixels of an image side that a tile covers: fewer than its width at the far edge.
-int pixels_in(int tile, int shift, int size) {
-  return std::min((tile + 1) << shift, size) - (tile << shift);
+/// Two tiles as one.
+std::int32_t joined(std::int32_t tile_a, std::int32_t tile_b) {
+  constexpr std::uint32_t kGaps = DepthPyramid::kHasGaps, kNearest = 0xffffU & ~kGaps;
+  const auto a = static_cast<std::uint32_t>(tile_a), b = static_cast<std::uint32_t>(tile_b);
+  const std::uint32_t farthest = std::max(a, b) & 0xffff'0000U;
+  return static_cast<std::int32_t>(farthest | std::min(a & kNearest, b & kNearest) |
+                                   ((a | b) & kGaps));
 }
 
 }  // namespace
@@ -25,13 +28,15 @@ void DepthPyramid::lay_out(int width, int height) {
   levels_.clear();
   std::size_t tiles = 0;
   for (int shift = kTileShift;; ++shift) {
-    const auto count = [shift](int pixels) { return ((pixels - 1) >> shift) + 1; };
+    const auto count = [shift](int pixels) {
+      return static_cast<std::size_t>(((pixels - 1) >> shift) + 1);
+    };
     const Level level{count(width), count(height), tiles};
     levels_.push_back(level);
-    tiles += static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
+    tiles += level.width * level.height;
     if (level.width == 1 && level.height == 1) break;
   }
-  tiles_.resize(tiles);
+  words_.resize(tiles);
 }
 
 void DepthPyramid::build(const Image<std::uint16_t>& raw, WorkerTeam& team) {
@@ -40,55 +45,35 @@ void DepthPyramid::build(const Image<std::uint16_t>& raw, WorkerTeam& team) {
   std::atomic<std::size_t> readings{0};
   team.run([&](int worker) {
     std::size_t mine = 0;
-    for (int y = worker; y < finest.height; y += team.threads())
-      mine += summarise_tile_row(
-          raw, y, &tiles_[static_cast<std::size_t>(y) * static_cast<std::size_t>(finest.width)]);
+    for (auto y = static_cast<std::size_t>(worker); y < finest.height;
+         y += static_cast<std::size_t>(team.threads()))
+      mine += summarise_tile_row(raw, static_cast<int>(y), &words_[y * finest.width]);
     readings += mine;
   });
   readings_ = readings;
-  for (std::size_t i = 1; i < levels_.size(); ++i)
-    merge(levels_[i - 1], levels_[i], kTileShift + static_cast<int>(i) - 1);
+  for (std::size_t i = 1; i < levels_.size(); ++i) merge(levels_[i - 1], levels_[i]);
 }
 
-void DepthPyramid::merge(const Level& from, const Level& to, int tile_shift) {
-  for (int y = 0; y < to.height; ++y) {
-    for (int x = 0; x < to.width; ++x) {
-      DepthTile sum;
-      float valid = 0.0F, all = 0.0F;
-      for (int sy = 2 * y; sy < std::min(2 * y + 2, from.height); ++sy) {
-        for (int sx = 2 * x; sx < std::min(2 * x + 2, from.width); ++sx) {
-          const DepthTile& part = tile(from, sx, sy);
-          const auto pixels = static_cast<float>(pixels_in(sx, tile_shift, width_) *
-                                                 pixels_in(sy, tile_shift, height_));
-          sum.nearest = std::min(sum.nearest, part.nearest);
-          sum.farthest = std::max(sum.farthest, part.farthest);
-          valid += part.valid * pixels;
-          all += pixels;
-        }
-      }
-      sum.valid = valid / all;
-      tiles_[to.first + static_cast<std::size_t>(y * to.width + x)] = sum;
-    }
+void DepthPyramid::merge(const Level& from, const Level& to) {
+  for (std::size_t y = 0; y < to.height; ++y) {
+    const std::int32_t* upper = &words_[from.first + 2 * y * from.width];
+    const std::int32_t* lower = 2 * y + 1 < from.height ? upper + from.width : upper;
+    std::int32_t* out = &words_[to.first + y * to.width];
+    const std::size_t pairs = from.width / 2;
+    for (std::size_t x = 0; x < pairs; ++x)
+      out[x] =
+          joined(joined(upper[2 * x], upper[2 * x + 1]), joined(lower[2 * x], lower[2 * x + 1]));
+    if (pairs < to.width) out[pairs] = joined(upper[2 * pairs], lower[2 * pairs]);
   }
 }
 
-DepthRange DepthPyramid::range_of(const PixelRect& rect) const {
-  // The level whose tiles are at most half as wide as the rectangle: at most 3 x 3 tiles, and
-  // little more than what was asked for.
-  const auto longest = static_cast<unsigned>(std::max(rect.u1 - rect.u0, rect.v1 - rect.v0) + 1);
-  const int wanted = static_cast<int>(std::bit_width(longest)) - 2 - kTileShift;
-  const int index = std::clamp(wanted, 0, static_cast<int>(levels_.size()) - 1);
-  const int shift = kTileShift + index;
-  DepthRange range;
-  for (int y = rect.v0 >> shift; y <= rect.v1 >> shift; ++y) {
-    for (int x = rect.u0 >> shift; x <= rect.u1 >> shift; ++x) {
-      const DepthTile& t = tile(level(index), x, y);
-      range.nearest = std::min(range.nearest, t.nearest);
-      range.farthest = std::max(range.farthest, t.farthest);
-      range.is_complete = range.is_complete && t.valid == 1.0F;
-    }
+PyramidTiles DepthPyramid::tiles() const {
+  PyramidTiles tiles{words_.data(), static_cast<int>(levels_.size()), {}, {}};
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    tiles.first[i] = static_cast<std::int32_t>(levels_[i].first);
+    tiles.width[i] = static_cast<std::int32_t>(levels_[i].width);
   }
-  return range;
+  return tiles;
 }
 
 }  // namespace swiftlet

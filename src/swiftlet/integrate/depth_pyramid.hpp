@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -12,73 +13,60 @@
 
 namespace swiftlet {
 
-/// What a square of a depth image holds, in device units.
-struct DepthTile {
-  std::uint16_t nearest = 0xffff;  ///< smallest reading; 0xffff if there is none
-  std::uint16_t farthest = 0;      ///< largest reading; 0 if there is none
-  float valid = 0.0F;              ///< share of its pixels that have a reading
+/// What the kernels see of a DepthPyramid.
+struct PyramidTiles {
+  static constexpr std::size_t kMostLevels = 16;
 
-  [[nodiscard]] bool has_readings() const { return farthest != 0; }
+  const std::int32_t* words;
+  int levels;
+  std::array<std::int32_t, kMostLevels> first, width;  ///< of each level: in words; tiles in a row
 };
 
-/// What a rectangle of a depth image holds, in device units.
-struct DepthRange {
-  std::uint16_t nearest = 0xffff;
-  std::uint16_t farthest = 0;
-  bool is_complete = true;  ///< no pixel without a reading
-
-  [[nodiscard]] bool has_readings() const { return farthest != 0; }
-};
-
-/// Pixels [u0, u1] x [v0, v1], both inside.
-struct PixelRect {
-  int u0, v0, u1, v1;
-};
-
-/// Nearest and farthest reading of rectangles of a depth image, in constant time: tiles of 4 x 4
-/// pixels, of 8 x 8 and so on.
+/// Nearest and farthest reading of squares of a depth image: tiles of 4 x 4 pixels, of 8 x 8 and so
+/// on up to the whole image.
+///
+/// A tile is one word: its farthest reading, 0 if it has none, in the upper 16 bits; its nearest in
+/// the lower ones, rounded down to an even number, because the last bit is kHasGaps.
 class DepthPyramid {
  public:
   static constexpr int kTileShift = 2;  ///< tiles of level 0 are 4 pixels wide
   static constexpr int kTile = 1 << kTileShift;
+  static constexpr std::int32_t kHasGaps = 1;  ///< some pixel has no reading
 
-  struct Level {
-    int width, height;  // tiles
-    std::size_t first;  // in tiles()
-  };
+  /// The word of a tile; nearest and farthest are 0 if it has no reading.
+  [[nodiscard]] static std::int32_t word_of(std::uint16_t nearest, std::uint16_t farthest,
+                                            bool has_gaps) {
+    const std::uint32_t least = nearest == 0 ? 0xffffU : nearest;
+    return static_cast<std::int32_t>(std::uint32_t{farthest} << 16U | (least & ~1U) |
+                                     (has_gaps ? 1U : 0U));
+  }
 
   /// Allocates only while images grow.
   void build(const Image<std::uint16_t>& raw, WorkerTeam& team);
 
-  /// The range of a rectangle or of a little more: it is rounded outwards to whole tiles.
-  /// REQUIRES: the rectangle lies in the image and is not empty.
-  [[nodiscard]] DepthRange range_of(const PixelRect& rect) const;
-  /// Of the whole image.
-  [[nodiscard]] const DepthTile& whole() const { return tiles_[levels_.back().first]; }
+  [[nodiscard]] PyramidTiles tiles() const;
+  /// Of the whole image; 0 if there is none.
+  [[nodiscard]] std::uint16_t farthest() const {
+    return static_cast<std::uint16_t>(static_cast<std::uint32_t>(words_.back()) >> 16U);
+  }
   /// Pixels with a reading.
   [[nodiscard]] std::size_t readings() const { return readings_; }
 
-  [[nodiscard]] const Level& level(int index) const {
-    return levels_[static_cast<std::size_t>(index)];
-  }
-  [[nodiscard]] const DepthTile& tile(const Level& level, int x, int y) const {
-    return tiles_[level.first +
-                  static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
-                  static_cast<std::size_t>(x)];
-  }
-
   [[nodiscard]] std::size_t memory_bytes() const {
-    return tiles_.capacity() * sizeof(DepthTile) + levels_.capacity() * sizeof(Level);
+    return words_.capacity() * sizeof(std::int32_t) + levels_.capacity() * sizeof(Level);
   }
 
  private:
+  struct Level {
+    std::size_t width, height, first;
+  };
   void lay_out(int width, int height);
-  void merge(const Level& from, const Level& to, int tile_shift);
+  void merge(const Level& from, const Level& to);
 
   int width_ = 0, height_ = 0;
   std::size_t readings_ = 0;
   std::vector<Level> levels_;
-  std::vector<DepthTile> tiles_;
+  std::vector<std::int32_t> words_;
 };
 
 }  // namespace swiftlet

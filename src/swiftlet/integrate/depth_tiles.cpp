@@ -36,7 +36,8 @@ struct Summary {
 };
 
 /// Whole tiles from pixel column `u`, as many as there are lanes.
-HWY_INLINE std::size_t add_tiles(const std::uint16_t* const rows[kTile], int u, DepthTile* tiles) {
+HWY_INLINE std::size_t add_tiles(const std::uint16_t* const rows[kTile], int u,
+                                 std::int32_t* tiles) {
   constexpr Raws r;
   Summary sum{hn::Set(r, 0xffff), hn::Zero(r), hn::Zero(r)};
   for (int row = 0; row < kTile; ++row) {
@@ -50,15 +51,13 @@ HWY_INLINE std::size_t add_tiles(const std::uint16_t* const rows[kTile], int u, 
   hn::Store(sum.missing, r, missing);
   std::size_t readings = 0;
   for (std::size_t i = 0; i < hn::Lanes(r); ++i) {
-    const auto valid = static_cast<unsigned>(kTile * kTile - missing[i]);
-    const std::uint16_t least = valid == 0 ? std::uint16_t{0xffff} : nearest[i];
-    tiles[i] = {least, farthest[i], static_cast<float>(valid) / (kTile * kTile)};
-    readings += valid;
+    tiles[i] = DepthPyramid::word_of(nearest[i], farthest[i], missing[i] != 0);
+    readings += static_cast<std::size_t>(kTile * kTile - missing[i]);
   }
   return readings;
 }
 
-std::size_t tile_row(const std::uint16_t* const rows[kTile], int tiles, DepthTile* out) {
+std::size_t tile_row(const std::uint16_t* const rows[kTile], int tiles, std::int32_t* out) {
   const auto step = static_cast<int>(hn::Lanes(Raws()));
   std::size_t readings = 0;
   for (int t = 0; t + step <= tiles; t += step) readings += add_tiles(rows, kTile * t, out + t);
@@ -79,31 +78,29 @@ HWY_EXPORT(tile_row);
 HWY_EXPORT(lanes);
 
 /// Tiles that the image's edge cuts, and those that fill no vector.
-DepthTile summarise_tile(const Image<std::uint16_t>& raw, int x, int y, std::size_t& readings) {
+std::int32_t summarise_tile(const Image<std::uint16_t>& raw, int x, int y, std::size_t& readings) {
   constexpr int kTile = DepthPyramid::kTile;
   const int u_end = std::min((x + 1) * kTile, raw.width());
   const int v_end = std::min((y + 1) * kTile, raw.height());
-  DepthTile tile;
-  int valid = 0;
+  std::uint16_t nearest = 0, farthest = 0;
+  bool has_gaps = false;
   for (int v = y * kTile; v < v_end; ++v) {
     for (int u = x * kTile; u < u_end; ++u) {
       const std::uint16_t d = raw.at(u, v);
+      has_gaps = has_gaps || d == 0;
       if (d == 0) continue;
-      ++valid;
-      tile.nearest = std::min(tile.nearest, d);
-      tile.farthest = std::max(tile.farthest, d);
+      ++readings;
+      nearest = nearest == 0 ? d : std::min(nearest, d);
+      farthest = std::max(farthest, d);
     }
   }
-  const int pixels = (u_end - x * kTile) * (v_end - y * kTile);
-  tile.valid = static_cast<float>(valid) / static_cast<float>(pixels);
-  readings += static_cast<std::size_t>(valid);
-  return tile;
+  return DepthPyramid::word_of(nearest, farthest, has_gaps);
 }
 
 }  // namespace
 
 std::size_t summarise_tile_row(const Image<std::uint16_t>& raw, int tile_row_index,
-                               DepthTile* tiles) {
+                               std::int32_t* tiles) {
   constexpr int kTile = DepthPyramid::kTile;
   const int all = (raw.width() + kTile - 1) / kTile, whole = raw.width() / kTile;
   std::size_t readings = 0;

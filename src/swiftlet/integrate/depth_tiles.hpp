@@ -13,6 +13,6 @@ namespace swiftlet {
 
 /// Fills one row of the finest tiles of a depth pyramid; returns the number of readings in it. Runs
 /// on the widest vectors of this machine.
-std::size_t summarise_tile_row(const Image<std::uint16_t>& raw, int tile_row, DepthTile* tiles);
+std::size_t summarise_tile_row(const Image<std::uint16_t>& raw, int tile_row, std::int32_t* tiles);
 
 }  // namespace swiftlet

@@ -3,12 +3,10 @@
 
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "swiftlet/integrate/depth_pyramid.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 
 namespace swiftlet {
@@ -32,25 +30,12 @@ class EvidenceTable {
   static constexpr int kColumns = 125;           ///< the first and last stand for all beyond
   /// L is within 1e-4 of free_log_odds() so many sigma in front of a reading.
   static constexpr float kInFrontSigma = 5.0F;
+  /// Behind z_t + so many sigma a reading says nothing.
+  static constexpr auto kReachSigma = static_cast<float>(InverseSensorModel::kBandSigma);
 
   /// Ready for readings 1 .. farthest of a frame. Allocates on the first call and when the sensor
   /// has changed.
   void prepare(const StereoSensor& sensor, float unit_m, std::uint16_t farthest);
-
-  /// Depth [m] of a reading.
-  [[nodiscard]] float depth_m(std::uint16_t raw) const { return unit_m_ * static_cast<float>(raw); }
-  /// Standard deviation [m] of a reading at this depth [m].
-  [[nodiscard]] float sigma_m(float z_m) const { return sigma_per_z2_ * z_m * z_m; }
-  /// Behind this depth [m] a reading says nothing: z_t + 3 sigma. Grows with raw.
-  [[nodiscard]] float reach_m(std::uint16_t raw) const {
-    const float z = depth_m(raw);
-    return z + static_cast<float>(InverseSensorModel::kBandSigma) * sigma_m(z);
-  }
-  /// Up to this depth [m] every reading of a range says "free" and nothing else. Concave in the
-  /// depth of the reading, so its smallest value is at an end of the range.
-  [[nodiscard]] float clear_m(const DepthRange& range) const {
-    return std::min(clear_m(range.nearest), clear_m(range.farthest));
-  }
 
   /// Log-odds [((raw >> row_shift()) * kClasses + class) * kColumns + column].
   [[nodiscard]] const float* rise() const { return rise_.data(); }
@@ -72,10 +57,6 @@ class EvidenceTable {
   };
   static constexpr std::size_t kRowLength = std::size_t{kClasses} * kColumns;
 
-  [[nodiscard]] float clear_m(std::uint16_t raw) const {
-    const float z = depth_m(raw);
-    return z - kInFrontSigma * sigma_m(z);
-  }
   void start_over(const Key& key, const InverseSensorModel& model);
   void add_row(const StereoSensor& sensor);
 

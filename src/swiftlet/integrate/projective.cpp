@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <vector>
 
 #include "swiftlet/base/worker_team.hpp"
@@ -20,6 +21,8 @@ using Clock = std::chrono::steady_clock;
 constexpr float kMostScatter = 0.35F;
 
 FrameInView look(const CubeView& view, const EvidenceTable& table, float steps_per_log_odds) {
+  const Float3& a = view.optical_axis();
+  const float across_cells = std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]);
   return {.world_axis = view.world_axis(),
           .fx = view.fx(),
           .fy = view.fy(),
@@ -28,6 +31,7 @@ FrameInView look(const CubeView& view, const EvidenceTable& table, float steps_p
           .width = static_cast<float>(view.width()),
           .height = static_cast<float>(view.height()),
           .voxel_m = view.voxel_m(),
+          .slice_inset_m = 0.5F * view.voxel_m() * (across_cells - 1.0F),
           .unit_m = table.unit_m(),
           .sigma_per_z2 = table.sigma_per_z2(),
           .rise = table.rise(),
@@ -57,7 +61,7 @@ class ProjectiveIntegrator final : public Integrator {
     pyramid_.build(view.depth.raw, team_);
     tally.readings = pyramid_.readings();
     if (tally.readings == 0) return tally;
-    table_.prepare(sensor, view.depth.unit_m, pyramid_.whole().farthest);
+    table_.prepare(sensor, view.depth.unit_m, pyramid_.farthest());
     const CubeView cubes(view, map.voxel_m());
     summaries_.build(view.depth.raw,
                      {.unit_m = table_.unit_m(),
@@ -66,7 +70,7 @@ class ProjectiveIntegrator final : public Integrator {
                       .frame_number = view.frame_number},
                      team_);
     const FrameInView in_view = look(cubes, table_, steps_per_log_odds_);
-    const FrameEvidence frame(cubes, pyramid_, summaries_, table_, in_view, view.frame_number);
+    const FrameEvidence frame(cubes, pyramid_, summaries_, in_view, view.frame_number);
 
     cubes_.find(map.window(), cubes, frame);
     std::atomic<std::size_t> next{0};

@@ -3,6 +3,8 @@
 
 #include "swiftlet/integrate/reading_kernels.hpp"
 
+#include <algorithm>
+
 // Highway compiles this file once for every instruction set: SSE2 to AVX-512, NEON.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "swiftlet/integrate/reading_kernels.cpp"
@@ -21,7 +23,7 @@ using Raws = hn::Rebind<std::uint16_t, Floats>;
 /// themselves.
 struct Parts {
   FloatLanes count[4], mean[4], variance[4];
-  FloatLanes voice[4], per_deviation[4];  // mean [m] and 1 / deviation
+  FloatLanes voice[4], narrow[4];  // mean [m] and sqrt(sigma / deviation)
 };
 
 /// Scatter that noise alone makes: in deviations of a reading, of all but odd tiles.
@@ -62,26 +64,24 @@ HWY_INLINE void finish(const Parts& p, std::ptrdiff_t x, const SummaryRow& row) 
 
   const FloatLanes sigma = hn::Mul(hn::Mul(mean, mean), hn::Set(f, row.sigma_per_z2));
   const FloatLanes sigma2 = hn::Mul(sigma, sigma);
-  const FloatLanes spread = hn::Sqrt(hn::Add(sigma2, variance));
-  const auto has_readings = hn::Gt(count, hn::Zero(f));
+  const FloatLanes deviation2 = hn::Max(hn::Add(sigma2, variance), hn::Set(f, 1e-12F));
   FloatLanes voice = mean;
-  FloatLanes per_deviation = hn::Div(one, hn::IfThenElse(has_readings, spread, one));
+  FloatLanes narrow = hn::Sqrt(hn::Sqrt(hn::Div(sigma2, deviation2)));
   const FloatLanes most = hn::Max(hn::Mul(sigma2, hn::Set(f, kNoiseScatter * kNoiseScatter)),
                                   hn::Set(f, row.most_scatter_m * row.most_scatter_m));
   const auto is_edge = hn::Gt(variance, most);
   if (!hn::AllFalse(f, is_edge)) {
     FloatLanes left = hn::Mul(draw(row.seed, static_cast<int>(x)), count);
-    FloatLanes drawn = p.voice[0], drawn_per_deviation = p.per_deviation[0];
+    FloatLanes drawn = p.voice[0], drawn_narrow = p.narrow[0];
     for (int k = 1; k < 4; ++k) {
       left = hn::Sub(left, p.count[k - 1]);
       const auto is_later = hn::And(hn::Ge(left, hn::Zero(f)), hn::Gt(p.count[k], hn::Zero(f)));
       drawn = hn::IfThenElse(is_later, p.voice[k], drawn);
-      drawn_per_deviation = hn::IfThenElse(is_later, p.per_deviation[k], drawn_per_deviation);
+      drawn_narrow = hn::IfThenElse(is_later, p.narrow[k], drawn_narrow);
     }
     voice = hn::IfThenElse(is_edge, drawn, voice);
-    per_deviation = hn::IfThenElse(is_edge, drawn_per_deviation, per_deviation);
+    narrow = hn::IfThenElse(is_edge, drawn_narrow, narrow);
   }
-  hn::StoreU(per_deviation, f, row.per_deviation + x);
 
   // Tiles at the right edge have fewer columns in the image.
   const auto width = static_cast<float>(1 << row.shift);
@@ -93,40 +93,57 @@ HWY_INLINE void finish(const Parts& p, std::ptrdiff_t x, const SummaryRow& row) 
   const FloatLanes share = hn::Div(hn::Mul(count, hn::Set(f, ReadingTiles::kAll)), pixels);
   const FloatLanes raw = hn::Mul(voice, hn::Set(f, 1.0F / row.unit_m));
   const auto low = hn::NearestInt(hn::Min(raw, hn::Set(f, 65535.0F)));
-  hn::StoreU(hn::Or(low, hn::ShiftLeft<16>(hn::NearestInt(share))), i, row.mean_and_share + x);
+  const auto narrowness = hn::NearestInt(hn::Mul(narrow, hn::Set(f, ReadingTiles::kNarrowest)));
+  const auto high = hn::Or(hn::ShiftLeft<16>(hn::NearestInt(share)), hn::ShiftLeft<24>(narrowness));
+  hn::StoreU(hn::Or(low, high), i, row.words + x);
 }
 
-void pixels(const std::uint16_t* upper, const std::uint16_t* lower, const SummaryRow& row) {
+/// Tiles from column `x` of the two rows of pixels that begin at `upper` and `lower`.
+HWY_INLINE void tiles_of_pixels(const std::uint16_t* upper, const std::uint16_t* lower,
+                                std::ptrdiff_t x, const SummaryRow& row) {
   constexpr Floats f;
   constexpr Ints i;
   constexpr Raws r;
-  const FloatLanes unit = hn::Set(f, row.unit_m);
-  for (std::ptrdiff_t x = 0; x < row.tiles; x += static_cast<std::ptrdiff_t>(hn::Lanes(f))) {
-    hn::Vec<Raws> raw[4];
-    hn::LoadInterleaved2(r, upper + 2 * x, raw[0], raw[1]);
-    hn::LoadInterleaved2(r, lower + 2 * x, raw[2], raw[3]);
-    Parts parts;
-    for (int k = 0; k < 4; ++k) {
-      parts.mean[k] = hn::Mul(hn::ConvertTo(f, hn::PromoteTo(i, raw[k])), unit);
-      parts.count[k] = hn::IfThenElseZero(hn::Gt(parts.mean[k], hn::Zero(f)), hn::Set(f, 1.0F));
-      parts.variance[k] = hn::Zero(f);
-      parts.voice[k] = parts.mean[k];
-      const FloatLanes sigma =
-          hn::Mul(hn::Mul(parts.mean[k], parts.mean[k]), hn::Set(f, row.sigma_per_z2));
-      parts.per_deviation[k] = hn::Div(hn::Set(f, 1.0F), hn::Max(sigma, hn::Set(f, 1e-9F)));
-    }
-    finish(parts, x, row);
+  const FloatLanes unit = hn::Set(f, row.unit_m), one = hn::Set(f, 1.0F);
+  hn::Vec<Raws> raw[4];
+  hn::LoadInterleaved2(r, upper, raw[0], raw[1]);
+  hn::LoadInterleaved2(r, lower, raw[2], raw[3]);
+  Parts parts;
+  for (int k = 0; k < 4; ++k) {
+    parts.mean[k] = hn::Mul(hn::ConvertTo(f, hn::PromoteTo(i, raw[k])), unit);
+    parts.count[k] = hn::IfThenElseZero(hn::Gt(parts.mean[k], hn::Zero(f)), one);
+    parts.variance[k] = hn::Zero(f);
+    parts.voice[k] = parts.mean[k];
+    parts.narrow[k] = one;
   }
+  finish(parts, x, row);
 }
 
-HWY_INLINE void load_voices(const std::int32_t* from, float unit_m, FloatLanes* voice) {
+void pixels(const std::uint16_t* upper, const std::uint16_t* lower, const SummaryRow& row) {
+  const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(Floats()));
+  std::ptrdiff_t x = 0;
+  for (; 2 * (x + lanes) <= row.image_width; x += lanes)
+    tiles_of_pixels(upper + 2 * x, lower + 2 * x, x, row);
+  if (x == row.tiles) return;
+  // The rest fills no vector: beyond the image there are no readings.
+  std::uint16_t ends[2][32] = {};
+  std::copy(upper + 2 * x, upper + row.image_width, ends[0]);
+  std::copy(lower + 2 * x, lower + row.image_width, ends[1]);
+  tiles_of_pixels(ends[0], ends[1], x, row);
+}
+
+HWY_INLINE void load_voices(const std::int32_t* from, float unit_m, FloatLanes* voice,
+                            FloatLanes* narrow) {
   constexpr Floats f;
   constexpr Ints i;
+  constexpr hn::RebindToUnsigned<Ints> n;
   IntLanes word[2];
   hn::LoadInterleaved2(i, from, word[0], word[1]);
   for (int k = 0; k < 2; ++k) {
     const IntLanes raw = hn::And(word[k], hn::Set(i, 0xffff));
     voice[k] = hn::Mul(hn::ConvertTo(f, raw), hn::Set(f, unit_m));
+    const IntLanes high = hn::BitCast(i, hn::ShiftRight<24>(hn::BitCast(n, word[k])));
+    narrow[k] = hn::Mul(hn::ConvertTo(f, high), hn::Set(f, 1.0F / ReadingTiles::kNarrowest));
   }
 }
 
@@ -140,12 +157,8 @@ void merge(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row) 
     hn::LoadInterleaved2(f, lower.mean_m + 2 * x, parts.mean[2], parts.mean[3]);
     hn::LoadInterleaved2(f, upper.variance_m2 + 2 * x, parts.variance[0], parts.variance[1]);
     hn::LoadInterleaved2(f, lower.variance_m2 + 2 * x, parts.variance[2], parts.variance[3]);
-    hn::LoadInterleaved2(f, upper.per_deviation + 2 * x, parts.per_deviation[0],
-                         parts.per_deviation[1]);
-    hn::LoadInterleaved2(f, lower.per_deviation + 2 * x, parts.per_deviation[2],
-                         parts.per_deviation[3]);
-    load_voices(upper.mean_and_share + 2 * x, row.unit_m, parts.voice);
-    load_voices(lower.mean_and_share + 2 * x, row.unit_m, parts.voice + 2);
+    load_voices(upper.words + 2 * x, row.unit_m, parts.voice, parts.narrow);
+    load_voices(lower.words + 2 * x, row.unit_m, parts.voice + 2, parts.narrow + 2);
     finish(parts, x, row);
   }
 }

@@ -7,19 +7,19 @@
 
 namespace swiftlet {
 
-/// The readings of squares of a depth image as a kernel gathers them, one word and one float a
-/// tile.
+/// The readings of squares of a depth image as a kernel gathers them, one word a tile: from the
+/// lowest bit
+///   16 bits  mean reading [device units]
+///    8 bits  share of the tile's pixels that have one, in kAll-ths
+///    8 bits  how narrowly they agree: kNarrowest * sqrt(sigma / deviation), where sigma is that of
+///            one reading and the deviation that of where the tile's readings put the surface,
+///            their own and among each other
 struct ReadingTiles {
-  /// Mean reading [device units] in the low 16 bits; in the high ones the share of the tile's
-  /// pixels that have one, in kAll-ths.
-  const std::int32_t* mean_and_share;
-  /// 1 / deviation [1/m] of where the tile's readings put the surface: of one reading, and of the
-  /// readings among each other.
-  const float* per_deviation;
+  const std::int32_t* words;
   std::int32_t stride;  ///< tiles a row
   std::int32_t shift;   ///< a tile is 2^shift pixels wide
 
-  static constexpr float kAll = 32767.0F;
+  static constexpr float kAll = 255.0F, kNarrowest = 255.0F;
 };
 
 /// One row of tiles to be summarised, and where to put it. Every array has room for whole vectors.
@@ -34,20 +34,18 @@ struct SummaryRow {
   float* count;          ///< readings
   float* mean_m;
   float* variance_m2;
-  std::int32_t* mean_and_share;  ///< as in ReadingTiles
-  float* per_deviation;          ///< as in ReadingTiles
+  std::int32_t* words;  ///< as in ReadingTiles
 };
 
 /// A row of summaries of the next finer level.
 struct FinerRow {
   const float *count, *mean_m, *variance_m2;
-  const std::int32_t* mean_and_share;
-  const float* per_deviation;
+  const std::int32_t* words;
 };
 
 // On the widest vectors of this machine, the same bits on all of them.
 
-/// Tiles of 2 x 2 from two rows of pixels.
+/// Tiles of 2 x 2 from two rows of pixels, of which `row.image_width` are read.
 void summarise_pixels(const std::uint16_t* upper, const std::uint16_t* lower,
                       const SummaryRow& row);
 /// Tiles from 2 x 2 finer ones.

@@ -30,17 +30,15 @@ void ReadingSummaries::lay_out(int width, int height) {
     level.count.assign(count, 0.0F);
     level.mean_m.assign(count, 0.0F);
     level.variance_m2.assign(count, 0.0F);
-    level.mean_and_share.assign(count, 0);
-    level.per_deviation.assign(count, 1.0F);
+    level.words.assign(count, 0);
   }
-  const Level& finest = levels_[0];
-  padded_.resize(2 * finest.stride, 2 * finest.rows);
+  below_.assign(static_cast<std::size_t>(width), 0);
 }
 
 FinerRow ReadingSummaries::finer(const Level& level, int y) {
   const auto first = static_cast<std::size_t>(y) * static_cast<std::size_t>(level.stride);
   return {&level.count[first], &level.mean_m[first], &level.variance_m2[first],
-          &level.mean_and_share[first], &level.per_deviation[first]};
+          &level.words[first]};
 }
 
 void ReadingSummaries::build(const Image<std::uint16_t>& raw, const Options& options,
@@ -48,49 +46,44 @@ void ReadingSummaries::build(const Image<std::uint16_t>& raw, const Options& opt
   if (raw.width() != width_ || raw.height() != height_) lay_out(raw.width(), raw.height());
   team.run([&](int worker) {
     for (int y = worker; y < tiles_of(height_, kFinestShift); y += team.threads()) {
-      for (int v = 2 * y; v < std::min(2 * y + 2, height_); ++v)
-        std::ranges::copy(raw.row(v), padded_.row(v).begin());
-      build_row(kFinestShift, y, options);
+      const std::uint16_t* lower = 2 * y + 1 < height_ ? raw.row(2 * y + 1).data() : below_.data();
+      summarise_pixels(raw.row(2 * y).data(), lower, row_of(kFinestShift, y, options));
     }
   });
-  for (int shift = kFinestShift + 1; shift <= kCoarsestShift; ++shift)
-    for (int y = 0; y < tiles_of(height_, shift); ++y) build_row(shift, y, options);
+  for (int shift = kFinestShift + 1; shift <= kCoarsestShift; ++shift) {
+    for (int y = 0; y < tiles_of(height_, shift); ++y) {
+      const Level& from = levels_[shift - kFinestShift - 1];
+      merge_summaries(finer(from, 2 * y), finer(from, 2 * y + 1), row_of(shift, y, options));
+    }
+  }
 }
 
-void ReadingSummaries::build_row(int shift, int y, const Options& options) {
+SummaryRow ReadingSummaries::row_of(int shift, int y, const Options& options) {
   Level& to = levels_[shift - kFinestShift];
   const auto first = static_cast<std::size_t>(y) * static_cast<std::size_t>(to.stride);
   const auto seed = options.frame_number * 65536U + static_cast<std::uint64_t>(8 * y + shift);
-  const SummaryRow row{.tiles = tiles_of(width_, shift),
-                       .image_width = width_,
-                       .pixel_rows = std::min((y + 1) << shift, height_) - (y << shift),
-                       .shift = shift,
-                       .unit_m = options.unit_m,
-                       .sigma_per_z2 = options.sigma_per_z2,
-                       .most_scatter_m = options.most_scatter_m,
-                       .seed = static_cast<std::uint32_t>(mix_bits(seed)),
-                       .count = &to.count[first],
-                       .mean_m = &to.mean_m[first],
-                       .variance_m2 = &to.variance_m2[first],
-                       .mean_and_share = &to.mean_and_share[first],
-                       .per_deviation = &to.per_deviation[first]};
-  if (shift == kFinestShift) {
-    summarise_pixels(padded_.row(2 * y).data(), padded_.row(2 * y + 1).data(), row);
-  } else {
-    const Level& from = levels_[shift - kFinestShift - 1];
-    merge_summaries(finer(from, 2 * y), finer(from, 2 * y + 1), row);
-  }
+  return {.tiles = tiles_of(width_, shift),
+          .image_width = width_,
+          .pixel_rows = std::min((y + 1) << shift, height_) - (y << shift),
+          .shift = shift,
+          .unit_m = options.unit_m,
+          .sigma_per_z2 = options.sigma_per_z2,
+          .most_scatter_m = options.most_scatter_m,
+          .seed = static_cast<std::uint32_t>(mix_bits(seed)),
+          .count = &to.count[first],
+          .mean_m = &to.mean_m[first],
+          .variance_m2 = &to.variance_m2[first],
+          .words = &to.words[first]};
 }
 
 ReadingTiles ReadingSummaries::tiles(int shift) const {
   const Level& level = levels_[std::clamp(shift, kFinestShift, kCoarsestShift) - kFinestShift];
-  return {level.mean_and_share.data(), level.per_deviation.data(), level.stride,
-          std::clamp(shift, kFinestShift, kCoarsestShift)};
+  return {level.words.data(), level.stride, std::clamp(shift, kFinestShift, kCoarsestShift)};
 }
 
 std::size_t ReadingSummaries::memory_bytes() const {
-  std::size_t bytes = padded_.pixels().size_bytes();
-  for (const Level& level : levels_) bytes += level.count.capacity() * 5 * sizeof(float);
+  std::size_t bytes = below_.capacity() * sizeof(std::uint16_t);
+  for (const Level& level : levels_) bytes += level.count.capacity() * 4 * sizeof(float);
   return bytes;
 }
 

@@ -42,15 +42,14 @@ class ReadingSummaries {
   struct Level {
     int rows = 0, stride = 0;
     std::vector<float> count, mean_m, variance_m2;
-    std::vector<std::int32_t> mean_and_share;
-    std::vector<float> per_deviation;
+    std::vector<std::int32_t> words;
   };
   void lay_out(int width, int height);
-  void build_row(int shift, int y, const Options& options);
+  SummaryRow row_of(int shift, int y, const Options& options);
   static FinerRow finer(const Level& level, int y);
 
   int width_ = 0, height_ = 0;
-  Image<std::uint16_t> padded_;
+  std::vector<std::uint16_t> below_;  // the row under the last one: no readings
   Level levels_[kCoarsestShift - kFinestShift + 1];
 };
 

@@ -56,6 +56,11 @@ HWY_INLINE IntLanes column_of(FloatLanes d, FloatLanes columns_per_m) {
   return hn::ConvertTo(i, hn::Min(hn::Max(place, hn::Zero(f)), hn::Set(f, kLast)));
 }
 
+HWY_INLINE FloatLanes share_of(IntLanes word) {
+  const IntLanes share = hn::And(hn::ShiftRight<16>(word), hn::Set(Ints(), 0xff));
+  return hn::ConvertTo(Floats(), share);
+}
+
 /// What is left of a tile's evidence when the readings are left out whose band ends before their
 /// rays enter the cell: all or nothing, unless that place lies within their scatter. Those left out
 /// are the ones that say the least, so all of it is left until their mean is among them.
@@ -81,19 +86,23 @@ struct ModelOf {
                                         const Sample& s, FloatLanes z_cell) {
     constexpr Floats f;
     constexpr Ints i;
-    const IntLanes word = hn::GatherIndex(i, tiles.mean_and_share, s.tile);
-    const FloatLanes per_deviation = hn::GatherIndex(f, tiles.per_deviation, s.tile);
+    constexpr hn::RebindToUnsigned<Ints> n;
+    const IntLanes word = hn::GatherIndex(i, tiles.words, s.tile);
     const IntLanes raw = hn::And(word, hn::Set(i, 0xffff));
-    const FloatLanes share = hn::ConvertTo(f, hn::ShiftRight<16>(word));
+    const FloatLanes share = share_of(word);
+    const IntLanes agreement = hn::BitCast(i, hn::ShiftRight<24>(hn::BitCast(n, word)));
+    const FloatLanes root =
+        hn::Mul(hn::ConvertTo(f, agreement), hn::Set(f, 1.0F / ReadingTiles::kNarrowest));
+    const FloatLanes narrow = hn::Mul(root, root);  // sigma / deviation
 
     const FloatLanes z = hn::Mul(hn::ConvertTo(f, raw), hn::Set(f, frame.unit_m));
     const FloatLanes sigma = hn::Mul(hn::Mul(z, z), hn::Set(f, frame.sigma_per_z2));
-    const FloatLanes beyond = hn::Sub(hn::Add(z, hn::Mul(sigma, hn::Set(f, 3.0F))), s.z);
+    const FloatLanes beyond =
+        hn::Sub(hn::Add(z, hn::Mul(sigma, hn::Set(f, EvidenceTable::kReachSigma))), s.z);
+    const FloatLanes per_deviation = hn::Div(narrow, hn::Max(sigma, hn::Set(f, 1e-9F)));
     constexpr auto kMostClass = static_cast<float>(EvidenceTable::kClasses - 1);
-    const FloatLanes narrow = hn::Mul(hn::Mul(sigma, per_deviation), hn::Set(f, kMostClass));
-    // A mean is rounded to device units, so sigma may come out a little wide.
     const IntLanes of_class =
-        hn::ConvertTo(i, hn::Min(hn::Add(narrow, hn::Set(f, 0.5F)), hn::Set(f, kMostClass)));
+        hn::ConvertTo(i, hn::Add(hn::Mul(narrow, hn::Set(f, kMostClass)), hn::Set(f, 0.5F)));
     static_assert(EvidenceTable::kClasses == 8);
     const IntLanes row = hn::ShiftLeft<3>(hn::ShiftRightSame(raw, frame.row_shift));
     const IntLanes first = hn::Mul(hn::Add(row, of_class), hn::Set(i, EvidenceTable::kColumns));
@@ -114,9 +123,7 @@ struct PassedBy {
   HWY_INLINE static FloatLanes log_odds(const FrameInView& frame, const ReadingTiles& tiles,
                                         const Sample& s, FloatLanes) {
     constexpr Floats f;
-    constexpr Ints i;
-    const IntLanes word = hn::GatherIndex(i, tiles.mean_and_share, s.tile);
-    const FloatLanes share = hn::ConvertTo(f, hn::ShiftRight<16>(word));
+    const FloatLanes share = share_of(hn::GatherIndex(Ints(), tiles.words, s.tile));
     return hn::IfThenElseZero(s.is_inside, hn::Mul(share, hn::Set(f, frame.free_log_odds)));
   }
 };

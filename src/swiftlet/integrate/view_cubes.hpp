@@ -29,22 +29,38 @@ class ViewCubes {
   void for_each_block(std::size_t cube, const CubeView& view, const FrameEvidence& frame,
                       Visit&& visit) const {
     const Cube& c = cubes_[cube];
-    swiftlet::for_each_block(c.blocks, [&](const BlockIndex& index) {
-      const Verdict verdict = c.verdict == Verdict::kFree
-                                  ? c.verdict
-                                  : frame.judge(view.cube(first_voxel(index), kBlockEdge));
-      if (verdict != Verdict::kNothing) visit(index, verdict);
-    });
+    const CubeInView whole = view.cube(first_voxel(c.blocks.first), kCube * kBlockEdge);
+    Verdicts of_halves, of_blocks;
+    frame.judge_halves(whole, kCube / 2 * kBlockEdge, c.verdict, of_halves);
+    for (int i = 0; i < 8; ++i) {
+      const Verdict verdict = of_halves[static_cast<std::size_t>(i)];
+      if (verdict == Verdict::kNothing) continue;
+      const CubeInView half = view.child(whole, kCube / 2 * kBlockEdge, i);
+      frame.judge_halves(half, kBlockEdge, verdict, of_blocks);
+      for (int k = 0; k < 8; ++k) {
+        const BlockIndex place{2 * (i & 1) + (k & 1), (i & 2) + ((k >> 1) & 1),
+                               2 * (i >> 2) + (k >> 2)};
+        const BlockIndex index{c.blocks.first.x + place.x, c.blocks.first.y + place.y,
+                               c.blocks.first.z + place.z};
+        const Verdict of_block = of_blocks[static_cast<std::size_t>(k)];
+        if (of_block != Verdict::kNothing && c.blocks.contains(index)) visit(index, of_block);
+      }
+    }
   }
 
   [[nodiscard]] std::size_t memory_bytes() const { return cubes_.capacity() * sizeof(Cube); }
 
  private:
+  static constexpr std::int32_t kCube = 4;  // blocks
+
   struct Cube {
-    BlockWindow blocks;
+    BlockWindow blocks;  // of the window
     Verdict verdict;
     float distance2_m2;  // of its middle, from the camera
   };
+  void find_in_row(BlockIndex b, const BlockIndex& end, const CubeView& view,
+                   const FrameEvidence& frame);
+
   std::vector<Cube> cubes_;
 };
 
