@@ -18,12 +18,15 @@ export skipped=77
 # SWIFTLET_JOBS overrides how many compilers run at once; each takes up to 1 GB.
 export jobs=${SWIFTLET_JOBS:-$(nproc)}
 
+# The project that a preset belongs to.
+folder_of() { if [[ $1 == aarch64 ]]; then echo tests/aarch64; else echo .; fi; }
+
 # configure_and_build PRESET [TARGET...]
 configure_and_build() {
   local preset=$1
   shift
   if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}; fi
-  cmake --preset "$preset" >"$(log_of "configure-$preset")" || {
+  cmake -S "$(folder_of "$preset")" --preset "$preset" >"$(log_of "configure-$preset")" || {
     cat "$(log_of "configure-$preset")"
     return 1
   }

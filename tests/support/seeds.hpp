@@ -39,7 +39,8 @@ class Random {
     return {real(low, high), real(low, high), real(low, high)};
   }
   Eigen::Quaterniond rotation() {
-    const Eigen::Vector4d q(gaussian(1), gaussian(1), gaussian(1), gaussian(1));
+    Eigen::Vector4d q;  // one by one: compilers differ in the order of arguments
+    for (double& part : q) part = gaussian(1);
     return Eigen::Quaterniond(q.normalized());
   }
   std::mt19937_64& engine() { return engine_; }

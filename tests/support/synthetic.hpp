@@ -32,8 +32,9 @@ inline Frame wall_frame(const PinholeIntrinsics& camera, double depth_m,
 /// A frame of random relief with holes, from a random place and attitude within `spread_m` of the
 /// origin.
 inline Frame random_frame(Random& random, const PinholeIntrinsics& camera, double spread_m = 0.5) {
+  const Eigen::Quaterniond rotation = random.rotation();
   const auto T_world_camera =
-      Transform<World, Camera>::trusted(random.rotation(), random.vector(-spread_m, spread_m));
+      Transform<World, Camera>::trusted(rotation, random.vector(-spread_m, spread_m));
   Frame frame = wall_frame(camera, 1.0, T_world_camera);
   const double base = random.real(0.5, 3.0);
   for (std::uint16_t& d : frame.depth.raw.pixels()) {

@@ -20,6 +20,8 @@ namespace {
 /// Centres of cells relative to the camera [m].
 struct CellLanes {
   FloatLanes world[3], camera[3];
+
+  HWY_INLINE CellLanes() {}  // see FloatLanes
 };
 
 /// Cells so many cells along x, y, z from the first of a cube.

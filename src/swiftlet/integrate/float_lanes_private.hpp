@@ -20,6 +20,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 // No MulAdd: fused and not fused are different bits.
 using Floats = hn::CappedTag<float, 16>;
 using Ints = hn::RebindToSigned<Floats>;
+// On ARM these have constructors. One that the compiler makes for a struct of them is not compiled
+// for the vectors' instruction set, so such a struct has its own, or is made as an aggregate.
 using FloatLanes = hn::Vec<Floats>;
 using IntLanes = hn::Vec<Ints>;
 

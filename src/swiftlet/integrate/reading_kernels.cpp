@@ -24,6 +24,8 @@ using Raws = hn::Rebind<std::uint16_t, Floats>;
 struct Parts {
   FloatLanes count[4], mean[4], variance[4];
   FloatLanes voice[4], narrow[4];  // mean [m] and sqrt(sigma / deviation)
+
+  HWY_INLINE Parts() {}  // see FloatLanes
 };
 
 /// Scatter that noise alone makes: in deviations of a reading, of all but odd tiles.

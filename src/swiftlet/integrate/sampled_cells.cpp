@@ -22,6 +22,8 @@ struct Sample {
   FloatLanes z, per_z;
   hn::Mask<Floats> is_inside;  // the image
   IntLanes tile;               // 0 outside
+
+  HWY_INLINE Sample() {}  // see FloatLanes
 };
 
 HWY_INLINE Sample sample_at(const FrameInView& frame, const ReadingTiles& tiles,

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+// The same frames give the same map bits on every kind of machine: these were written on x86-64 and
+// are compared on aarch64, too (tests/aarch64). A change of the method may change them; then all
+// machines must agree on the new ones.
+
+#include "support/map_bits.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/synthetic.hpp"
+
+namespace swiftlet {
+namespace {
+
+struct Case {
+  const char* name;
+  const char* integrator;
+  const char* ray_method;
+  int downsample;
+  std::uint64_t hash;
+};
+
+class MapBits : public ::testing::TestWithParam<Case> {};
+
+TEST_P(MapBits, are_those_of_every_machine) {
+  MapperConfig config;
+  config.map.voxel_m = 0.1;
+  config.integrate.integrator = GetParam().integrator;
+  config.integrate.ray_method = GetParam().ray_method;
+  config.depth.downsample = GetParam().downsample;
+  auto mapper = Mapper::create(config);
+  ASSERT_TRUE(mapper);
+  test::Random random(11);
+  for (int i = 0; i < 8; ++i)
+    mapper->integrate(test::random_frame(random, test::small_camera(163, 121), 2.0));
+  const test::MapBits bits = test::bits_of(*mapper);
+  EXPECT_GT(bits.known_cells, 1000U);
+  EXPECT_EQ(bits.hash, GetParam().hash) << bits;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Integrators, MapBits,
+    ::testing::Values(Case{"every_pixel", "projective", "voxel_traversal", 1, 0x2f8b4eb2cd8d7553U},
+                      Case{"nearest_of_4_x_4", "projective", "voxel_traversal", 4,
+                           0x27577648ceb315edU},
+                      Case{"voxel_traversal", "rays", "voxel_traversal", 1, 0x2fac9742b058cfb2U},
+                      Case{"line_drawing", "rays", "line_drawing", 1, 0xc99587e92dccb4dbU}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace swiftlet
