@@ -18,11 +18,11 @@ struct AccessRules {
 
 /// What a request says of itself; empty where it says nothing.
 struct Credentials {
-  std::string_view host;           ///< header Host
-  std::string_view origin;         ///< header Origin
-  std::string_view target;         ///< path and query
-  std::string_view cookie;         ///< header Cookie
-  std::string_view authorization;  ///< header Authorization
+  std::string_view host{};           ///< header Host
+  std::string_view origin{};         ///< header Origin
+  std::string_view target{};         ///< path and query
+  std::string_view cookie{};         ///< header Cookie
+  std::string_view authorization{};  ///< header Authorization
 };
 
 enum class Verdict : unsigned char { kAllowed, kWrongHost, kWrongOrigin, kWrongToken };

@@ -57,6 +57,8 @@ void HttpSession::upgrade() {
     case Verdict::kWrongOrigin:
       return send({403, {}, {}});
   }
+  // No client speaks before it has been let in.
+  if (inbox_.size() > 0) return send({400, {}, {}});
   if (!host_.has_room()) return send({503, {{"Retry-After", "5"}}, {}});
   auto chosen = host_.choose(view(request[http::field::sec_websocket_protocol]));
   if (!chosen) return send({400, {}, {}});

@@ -34,6 +34,7 @@ void SocketSession::accept(const HttpRequest& request, const std::string& subpro
   socket_.set_option(websocket::stream_base::decorator([subprotocol](auto& response) {
     if (!subprotocol.empty()) response.set(beast::http::field::sec_websocket_protocol, subprotocol);
   }));
+  socket_.auto_fragment(false);  // a message is one frame, as the packets are small already
   socket_.read_message_max(limits_.max_message);
   allowance_ = TokenBucket(limits_.messages_per_s, 3.0 * limits_.messages_per_s, Clock::now());
   socket_.async_accept(

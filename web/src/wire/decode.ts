@@ -9,6 +9,7 @@ export class WireError extends Error {}
 
 const kVersion = 1;
 const kBlockCells = 512;
+const kFrameRecord_bytes = 112;
 
 /// Reads a binary message. Throws WireError for what is no message of this version; a type that it does not know is
 /// null, so that newer servers may say more.
@@ -79,6 +80,9 @@ function readBlocks(view: DataView): {frame: number; blocks: BlockUpdate[]} {
 function readFrames(view: DataView): FrameRecord[] {
   const count = view.getUint16(12, true);
   const size = view.getUint16(14, true); // of a record; newer servers may append to it
+  if (size < kFrameRecord_bytes || 16 + count * size > view.byteLength) {
+    throw new WireError(`${count} records of ${size} bytes in a message of ${view.byteLength}`);
+  }
   const frames: FrameRecord[] = [];
   for (let i = 0; i < count; ++i) frames.push(readFrame(view, 16 + i * size));
   return frames;
