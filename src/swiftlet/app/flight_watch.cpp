@@ -55,6 +55,7 @@ void FlightWatch::frame_done(const Frame& frame, const MapUpdate& update, const 
   report_.intrinsics = frame.intrinsics;
   report_.memory_bytes = mapper.memory_bytes();
   feed_.report(report_);
+  feed_.depth(frame.depth);
 }
 
 void FlightWatch::block_left(const BlockIndex& index, const VoxelBlock& block,

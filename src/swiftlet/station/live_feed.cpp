@@ -33,6 +33,23 @@ void LiveFeed::evicted(const BlockIndex& index, const VoxelBlock& block, std::ui
   }
 }
 
+void LiveFeed::depth(const DepthImage& image) {
+  if (!wants_depth_.load(std::memory_order_relaxed)) return;
+  const std::unique_lock lock(depth_mutex_, std::try_to_lock);
+  if (!lock.owns_lock()) return;  // the next one will do
+  wants_depth_.store(false);
+  depth_ = image;
+  has_new_depth_ = true;
+}
+
+bool LiveFeed::take_depth(DepthImage& out) {
+  const std::lock_guard lock(depth_mutex_);
+  if (!has_new_depth_) return false;
+  std::swap(out, depth_);
+  has_new_depth_ = false;
+  return true;
+}
+
 std::optional<LiveFeed::World> LiveFeed::world_after(std::uint32_t number) {
   if (world_.load() == number) return std::nullopt;
   const std::lock_guard lock(mutex_);

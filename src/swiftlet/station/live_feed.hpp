@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "swiftlet/frame/depth_image.hpp"
 #include "swiftlet/map/block_archive.hpp"
 #include "swiftlet/map/map_snapshot.hpp"
 #include "swiftlet/station/report_ring.hpp"
@@ -35,6 +36,9 @@ class LiveFeed {
   void begin_world(MapReader reader, const WorldFacts& facts);
   void report(FrameReport report);
   void evicted(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version);
+  /// Keeps the image if somebody wants to see it and the station is not just taking one. Copies
+  /// it then, and allocates where it is larger than all before.
+  void depth(const DepthImage& image);
   void finish() { is_over_.store(true); }
 
   // The station's thread.
@@ -58,6 +62,9 @@ class LiveFeed {
   }
   /// What has left the window since the last call, in this order. Valid until the next call.
   [[nodiscard]] const std::vector<EvictedBlock>& take_evicted();
+  void ask_for_depth() { wants_depth_.store(true); }
+  /// The image that was asked for; false if there is none yet.
+  [[nodiscard]] bool take_depth(DepthImage& out);
   [[nodiscard]] std::uint64_t reports_missed() const { return reports_.missed(); }
   [[nodiscard]] std::uint64_t evicted_missed() const { return evicted_missed_.load(); }
   [[nodiscard]] bool is_over() const { return is_over_.load(); }
@@ -72,6 +79,11 @@ class LiveFeed {
   // Guarded by mutex_.
   std::vector<EvictedBlock> filling_;
   std::optional<World> begun_;
+
+  std::atomic<bool> wants_depth_{false};
+  std::mutex depth_mutex_;
+  DepthImage depth_;            // guarded by depth_mutex_
+  bool has_new_depth_ = false;  // guarded by depth_mutex_
 
   std::vector<EvictedBlock> taken_;  // the station's own
 };

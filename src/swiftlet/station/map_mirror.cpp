@@ -104,8 +104,7 @@ std::vector<BlockIndex> MapMirror::take_changes() {
   }
   // A block that went and came back within one look is listed twice.
   std::ranges::sort(changes_);
-  const auto twice = std::ranges::unique(changes_);
-  changes_.erase(twice.begin(), twice.end());
+  changes_.erase(std::unique(changes_.begin(), changes_.end()), changes_.end());
   return std::exchange(changes_, {});
 }
 

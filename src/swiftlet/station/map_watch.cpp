@@ -42,6 +42,7 @@ MapWatch::Look MapWatch::look() {
   for (const auto& gone : feed_->take_evicted()) map_.put(gone.index, gone.block, gone.version);
   for (const FrameReport& frame : std::exchange(early_, {})) book(frame, look);
   feed_->take_reports([&](const FrameReport& frame) { book(frame, look); });
+  look.has_depth = feed_->take_depth(depth_);
   if (reader_) {
     if (const auto snapshot = reader_->latest(); snapshot && snapshot->frame_count() > 0) {
       map_.update(*snapshot);

@@ -28,6 +28,7 @@ class MapWatch {
     bool is_new_world = false;
     std::vector<BlockIndex> changed;
     std::vector<FrameReport> frames;
+    bool has_depth = false;  ///< depth() is new
   };
   [[nodiscard]] Look look();
 
@@ -38,6 +39,12 @@ class MapWatch {
   [[nodiscard]] const std::optional<FrameReport>& last_frame() const { return last_frame_; }
   /// The block where the vehicle is, or the middle of a saved map.
   [[nodiscard]] const BlockIndex& centre() const { return centre_; }
+  /// The newest depth image that was asked for; empty before the first.
+  [[nodiscard]] const DepthImage& depth() const { return depth_; }
+  /// Asks for the depth image of the next frame.
+  void ask_for_depth() {
+    if (feed_ != nullptr) feed_->ask_for_depth();
+  }
   /// How things stand, but for what concerns one client.
   [[nodiscard]] StatusReport status() const;
 
@@ -52,6 +59,7 @@ class MapWatch {
   std::optional<FrameReport> last_frame_;
   std::vector<FrameReport> early_;  // of a world that look() has not come to yet
   std::vector<std::uint32_t> verdicts_;
+  DepthImage depth_;
   Eigen::Vector3d trigger_centre_m_ = Eigen::Vector3d::Zero();
   BlockIndex centre_;
 };

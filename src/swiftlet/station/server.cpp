@@ -104,6 +104,8 @@ class Server final : public Station {
     std::erase_if(clients_, [](const auto& client) { return !client->is_open(); });
     const MapWatch::Look look = watch_.look();
     const auto now = std::chrono::steady_clock::now();
+    const auto shows_depth = [](const auto& client) { return client->viewer().wants_depth(); };
+    if (std::ranges::any_of(clients_, shows_depth)) watch_.ask_for_depth();
     for (const auto& client : clients_) {
       client->viewer().saw(look);
       client->viewer().count(static_cast<std::uint32_t>(clients_.size()));

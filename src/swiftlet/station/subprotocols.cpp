@@ -7,10 +7,18 @@
 #include "swiftlet/station/server_private.hpp"
 
 namespace swiftlet::station {
+namespace {
+
+constexpr std::size_t kMaxFoxgloveMessage = 16 * 1024;  // names of channels, as JSON
+
+}  // namespace
 
 std::span<const Subprotocol> subprotocols() {
   static constexpr std::array kTable{
       Subprotocol{kSubprotocol, make_page_viewer, kMaxClientMessage, 20.0},
+      // One protocol under its new and its old name.
+      Subprotocol{"foxglove.sdk.v1", make_foxglove_viewer, kMaxFoxgloveMessage, 100.0},
+      Subprotocol{"foxglove.websocket.v1", make_foxglove_viewer, kMaxFoxgloveMessage, 100.0},
   };
   return kTable;
 }

@@ -35,9 +35,13 @@ class Viewer {
                                         Time now) = 0;
   /// How many clients there are.
   virtual void count(std::uint32_t clients) = 0;
+  /// Whether it shows depth images, which are fetched for those alone who do.
+  [[nodiscard]] virtual bool wants_depth() const { return false; }
 };
 
 /// A client of our own page's protocol. `watch` must outlive it.
 [[nodiscard]] std::unique_ptr<Viewer> make_page_viewer(const MapWatch& watch);
+/// A client of the Foxglove WebSocket protocol: Foxglove, Lichtblick.
+[[nodiscard]] std::unique_ptr<Viewer> make_foxglove_viewer(const MapWatch& watch);
 
 }  // namespace swiftlet::station
