@@ -24,6 +24,8 @@ swiftlet_backend(NAME realsense PACKAGE realsense2)  # live cameras (docs/realse
 
 # The program.
 if(SWIFTLET_BUILD_PROGRAM)
+  list(APPEND CMAKE_MODULE_PATH ${PROJECT_SOURCE_DIR}/cmake)
+  swiftlet_backend(NAME view PACKAGE SwiftletView)  # the ground station: its server and its page
   find_package(CLI11 REQUIRED)
   find_package(nlohmann_json REQUIRED)
 endif()

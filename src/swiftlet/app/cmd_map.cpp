@@ -10,6 +10,7 @@
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/config_file.hpp"
+#include "swiftlet/app/flight_watch.hpp"
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/mapping_session.hpp"
 #include "swiftlet/app/progress.hpp"
@@ -32,6 +33,9 @@ struct MapOptions {
   RigFlags rig;
   bool in_real_time = false;
   bool as_json = false;
+  bool is_viewed = false;
+  bool stays = false;  ///< the view, after the flight
+  StationFlags station;
 };
 
 /// Told before the flight and not after it.
@@ -80,7 +84,7 @@ SessionOptions session_options(const MapOptions& options, const SourceInfo& info
 
 /// Maps frame by frame to the end of the source, the limit, an error or Ctrl-C.
 Status fly(FrameSource& source, MappingSession& session, const MapOptions& options,
-           const InterruptGuard& interrupt) {
+           const InterruptGuard& interrupt, FlightWatch* watch) {
   Progress progress(options.frames > 0 ? options.frames : source.info().frame_count);
   MappingSummary& summary = session.summary();
   Status outcome = Done{};
@@ -93,6 +97,7 @@ Status fly(FrameSource& source, MappingSession& session, const MapOptions& optio
       break;
     }
     if (!*frame) break;
+    if (watch != nullptr) watch->note(source.tally());
     outcome = session.integrate(**frame);
     if (!outcome) break;
     progress.update(++done);
@@ -133,6 +138,14 @@ Faults land(MappingSession& session, const MapperConfig& config, Status&& flight
   return faults;
 }
 
+/// Null if nobody wants to look on.
+Expected<std::unique_ptr<FlightWatch>> start_watch(const MapOptions& options) {
+  if (!options.is_viewed) return nullptr;
+  auto watch = FlightWatch::start(options.station, options.source);
+  if (watch) tell_address((*watch)->station());
+  return watch;
+}
+
 Faults map(const MapOptions& options) {
   if (auto free = check_output(options); !free) return fault_of(std::move(free));
   auto config = config_of(options);
@@ -143,13 +156,23 @@ Faults map(const MapOptions& options) {
   const SourceInfo info = (*source)->info();
   adopt_baseline(info, *config);
 
-  auto session =
-      MappingSession::create(config->mapper, session_options(options, info, config->mapper));
+  auto watch = start_watch(options);
+  if (!watch) return fault_of(std::move(watch));
+  SessionOptions how = session_options(options, info, config->mapper);
+  how.observer = watch->get();
+  auto session = MappingSession::create(config->mapper, how);
   if (!session) return fault_of(std::move(session));
   (*session)->summary().source = info.uri;
   const InterruptGuard interrupt;  // until the map is saved
-  Status flight = fly(**source, **session, options, interrupt);
-  return land(**session, config->mapper, std::move(flight), options.as_json);
+  Status flight = fly(**source, **session, options, interrupt, watch->get());
+  if (*watch) (*watch)->finish();
+  const bool is_over = flight.has_value() && !(*session)->summary().was_interrupted;
+  Faults faults = land(**session, config->mapper, std::move(flight), options.as_json);
+  if (*watch && options.stays && is_over && faults.empty()) {
+    std::fflush(stdout);
+    wait_for(interrupt);
+  }
+  return faults;
 }
 
 }  // namespace
@@ -183,6 +206,11 @@ Action declare_map(CLI::App& parser) {
       ->type_name("N");
   parser.add_flag("--realtime", o->in_real_time,
                   "play at recorded speed and lose frames when late, as a live rig does");
+  parser.add_flag("--view", o->is_viewed, "show the map in the browser while it grows")
+      ->group("Ground station");
+  parser.add_flag("--stay", o->stays, "go on showing it after the flight, until Ctrl-C")
+      ->group("Ground station");
+  declare_station_flags(parser, o->station);
   declare_rig_flags(parser, o->rig);
   parser.add_option("--store", o->store, "what leaves the window: keep it in the file or drop it")
       ->check(CLI::IsMember({"keep", "drop"}))
@@ -198,6 +226,7 @@ Action declare_map(CLI::App& parser) {
       "  swiftlet map tum:freiburg1_room --set map.voxel_m=0.05 --set depth.downsample=4\n"
       "  swiftlet map sim:apartment --config flight.yaml --overwrite\n"
       "  swiftlet map bag:d435.bag,t265.bag --rig my_rig.yaml\n"
+      "  swiftlet map sim:apartment --view --stay --realtime     then open the address it tells\n"
       "'swiftlet list sources' tells every KIND, 'swiftlet list parameters' every KEY.\n"
       "Ctrl-C stops the flight and saves what was mapped (exit code 0); a second one gives up.");
   return [o] { return map(*o); };

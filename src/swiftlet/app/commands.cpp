@@ -9,6 +9,7 @@
 #define SWIFTLET_COMMANDS(X)                                  \
   X(map, "build a map from a recorded or simulated flight")   \
   X(info, "tell what a map file or a recording (.bag) holds") \
+  X(view, "show a map in the browser")                        \
   X(render, "draw a map as a PNG picture")                    \
   X(export, "write a map in another program's format")        \
   X(compare, "count the cells in which two maps differ")      \

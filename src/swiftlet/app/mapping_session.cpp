@@ -15,10 +15,16 @@ namespace swiftlet::app {
 Expected<std::unique_ptr<MappingSession>> MappingSession::create(const MapperConfig& config,
                                                                  const SessionOptions& options) {
   std::unique_ptr<MappingSession> session(new MappingSession(options));
-  auto mapper = Mapper::create(config, &session->archive_);
-  if (!mapper) return forward_error(std::move(mapper));
-  session->mapper_ = std::make_unique<Mapper>(std::move(*mapper));
+  if (auto begun = session->begin_map(config); !begun) return forward_error(std::move(begun));
   return session;
+}
+
+Status MappingSession::begin_map(const MapperConfig& config) {
+  auto mapper = Mapper::create(config, &archive_);
+  if (!mapper) return forward_error(std::move(mapper));
+  mapper_ = std::make_unique<Mapper>(std::move(*mapper));
+  if (options_.observer != nullptr) options_.observer->map_begun(*mapper_);
+  return Done{};
 }
 
 void MappingSession::book(const MapUpdate& update) {
@@ -63,10 +69,7 @@ Status MappingSession::start_again() {
   archive_.detach();
   store_.reset();
   options_.store.overwrite = true;  // the file is ours by now
-  auto mapper = Mapper::create(mapper_->config(), &archive_);
-  if (!mapper) return forward_error(std::move(mapper));
-  mapper_ = std::make_unique<Mapper>(std::move(*mapper));
-  return Done{};
+  return begin_map(MapperConfig(mapper_->config()));
 }
 
 Status MappingSession::integrate(const Frame& frame) {
@@ -77,6 +80,7 @@ Status MappingSession::integrate(const Frame& frame) {
   }
   const MapUpdate update = mapper_->integrate(frame);
   book(update);
+  if (options_.observer != nullptr) options_.observer->frame_done(frame, update, *mapper_);
   if (update.verdict != FrameVerdict::kIntegrated) return Done{};
   if (store_ == nullptr) return create_file(frame.T_world_camera.translation());
   if (!update.shift.moved) return Done{};

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "swiftlet/app/session_observer.hpp"
 #include "swiftlet/app/summary.hpp"
 #include "swiftlet/pipeline/mapper.hpp"
 #include "swiftlet/store/tile_store.hpp"
@@ -16,6 +17,7 @@ struct SessionOptions {
   std::string path;  ///< of the map file
   TileStoreOptions store;
   MapMeta meta;
+  SessionObserver* observer = nullptr;  ///< null: nobody looks on; else it outlives the session
 };
 
 /// Where a map stands while the one that replaces it is made.
@@ -50,10 +52,12 @@ class MappingSession {
   /// Stands in for the store until there is one: in a new map there is nothing to restore yet.
   class LateArchive final : public BlockArchive {
    public:
+    explicit LateArchive(SessionObserver* observer) : observer_(observer) {}
     void attach(BlockArchive& store) { store_ = &store; }
     void detach() { store_ = nullptr; }
     void evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) override {
       if (store_ != nullptr) store_->evict(index, block, version);
+      if (observer_ != nullptr) observer_->block_left(index, block, version);
     }
     [[nodiscard]] bool restore(const BlockIndex& index, VoxelBlock& out) override {
       return store_ != nullptr && store_->restore(index, out);
@@ -64,9 +68,12 @@ class MappingSession {
 
    private:
     BlockArchive* store_ = nullptr;
+    SessionObserver* observer_;
   };
 
-  explicit MappingSession(const SessionOptions& options) : options_(options) {}
+  explicit MappingSession(const SessionOptions& options)
+      : options_(options), archive_(options.observer) {}
+  [[nodiscard]] Status begin_map(const MapperConfig& config);
   [[nodiscard]] Status create_file(const Eigen::Vector3d& start_m);
   [[nodiscard]] Status set_old_map_aside();
   [[nodiscard]] Expected<SavedFile> read_back() const;

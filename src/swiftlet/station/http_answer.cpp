@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/station/http_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace swiftlet::station {
+namespace {
+
+/// Styles may be set from scripts, as three.js does on its canvas; markup has none of its own.
+HttpAnswer blank(int status, std::string_view host) {
+  const std::string policy = fmt::format(
+      "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+      "font-src 'self'; connect-src 'self' ws://{0} wss://{0}; base-uri 'none'; "
+      "form-action 'none'; frame-ancestors 'none'",
+      host);
+  return {status,
+          {{"Content-Security-Policy", policy},
+           {"X-Content-Type-Options", "nosniff"},
+           {"Referrer-Policy", "no-referrer"},
+           {"Cross-Origin-Opener-Policy", "same-origin"},
+           {"Cross-Origin-Resource-Policy", "same-origin"}},
+          {}};
+}
+
+/// A name out of its place would let a header say more than it should.
+bool is_printable_host(std::string_view host) {
+  return std::ranges::all_of(host, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == ':' || c == '-' || c == '[' || c == ']';
+  });
+}
+
+}  // namespace
+
+HttpAnswer answer(const AccessRules& rules, const HttpQuestion& question,
+                  std::span<const PageFile> files) {
+  const Credentials& who = question.credentials;
+  switch (judge(rules, who)) {
+    case Verdict::kAllowed:
+      break;
+    case Verdict::kWrongToken:
+      return {401, {}, {}};
+    case Verdict::kWrongHost:
+    case Verdict::kWrongOrigin:
+      return {403, {}, {}};
+  }
+  if (!is_printable_host(who.host)) return {400, {}, {}};
+  if (question.method != "GET" && question.method != "HEAD") {
+    HttpAnswer refused = blank(405, who.host);
+    refused.headers.emplace_back("Allow", "GET, HEAD");
+    return refused;
+  }
+  std::string_view path = who.target.substr(0, who.target.find('?'));
+  if (path == "/") path = "/index.html";
+  const auto file = std::ranges::find(files, path, &PageFile::path);
+  if (file == files.end()) return blank(404, who.host);
+
+  HttpAnswer found = blank(200, who.host);
+  found.headers.emplace_back("Content-Type", std::string(file->mime));
+  found.headers.emplace_back("Content-Encoding", "gzip");
+  // Names of assets hold a hash of what is in them; the page itself must follow the program.
+  found.headers.emplace_back(
+      "Cache-Control", path.starts_with("/assets/") ? "max-age=31536000, immutable" : "no-store");
+  if (!rules.token.empty() && !query_value(who.target, "token").empty()) {
+    // What the page loads next carries no query.
+    found.headers.emplace_back("Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict",
+                                                         kTokenCookie, rules.token));
+  }
+  found.body = file->gzip;
+  return found;
+}
+
+}  // namespace swiftlet::station

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "swiftlet/station/access.hpp"
+
+namespace swiftlet::station {
+
+/// A file of the page, compressed with gzip; linked into the program.
+struct PageFile {
+  std::string_view path;  ///< "/index.html"
+  std::string_view mime;
+  std::span<const std::uint8_t> gzip;
+};
+/// The built page; empty in a build without one.
+[[nodiscard]] std::span<const PageFile> page_files();
+
+/// What a request asks for.
+struct HttpQuestion {
+  std::string_view method;
+  Credentials credentials;
+};
+
+/// What it gets. No body where it is refused.
+struct HttpAnswer {
+  int status = 200;
+  std::vector<std::pair<std::string, std::string>> headers;
+  std::span<const std::uint8_t> body;
+};
+
+/// The answer to a plain request (not one for a WebSocket). Every answer forbids the page to load
+/// or reach anything but this server.
+[[nodiscard]] HttpAnswer answer(const AccessRules& rules, const HttpQuestion& question,
+                                std::span<const PageFile> files);
+
+}  // namespace swiftlet::station

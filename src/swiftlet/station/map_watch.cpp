@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/station/map_watch.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace swiftlet::station {
+namespace {
+
+BlockIndex middle_of(const MapMirror& map) {
+  std::int64_t x = 0, y = 0, z = 0, count = 0;
+  map.for_each_block([&](const BlockIndex& b, const VoxelBlock&) {
+    x += b.x;
+    y += b.y;
+    z += b.z;
+    ++count;
+  });
+  if (count == 0) return {};
+  const auto mean = [count](std::int64_t sum) { return static_cast<std::int32_t>(sum / count); };
+  return {mean(x), mean(y), mean(z)};
+}
+
+}  // namespace
+
+MapWatch::MapWatch(WorldFacts facts, MapMirror map)
+    : world_(1), facts_(std::move(facts)), map_(std::move(map)), centre_(middle_of(map_)) {}
+
+MapWatch::Look MapWatch::look() {
+  Look look;
+  if (feed_ == nullptr) return look;
+  if (auto begun = feed_->world_after(world_)) {
+    look.is_new_world = true;
+    world_ = begun->number;
+    facts_ = std::move(begun->facts);
+    reader_ = std::move(begun->reader);
+    map_ = MapMirror(facts_.thresholds);
+    last_frame_.reset();
+    verdicts_.assign(facts_.verdicts.size(), 0);
+  }
+  for (const auto& gone : feed_->take_evicted()) map_.put(gone.index, gone.block, gone.version);
+  for (const FrameReport& frame : std::exchange(early_, {})) book(frame, look);
+  feed_->take_reports([&](const FrameReport& frame) { book(frame, look); });
+  look.has_depth = feed_->take_depth(depth_);
+  if (reader_) {
+    if (const auto snapshot = reader_->latest(); snapshot && snapshot->frame_count() > 0) {
+      map_.update(*snapshot);
+    }
+  }
+  look.changed = map_.take_changes();
+  return look;
+}
+
+void MapWatch::book(const FrameReport& frame, Look& look) {
+  if (frame.world > world_) early_.push_back(frame);
+  if (frame.world != world_) return;
+  look.frames.push_back(frame);
+  if (frame.verdict < verdicts_.size()) ++verdicts_[frame.verdict];
+  last_frame_ = frame;
+  const Eigen::Vector3d& p_world = frame.T_world_camera.translation();
+  if (frame.has_shifted) trigger_centre_m_ = p_world;
+  constexpr double kFarthest_m = 1e6;  // RollingMap::kMaxCoordinate_m; refused frames may be beyond
+  if (p_world.cwiseAbs().maxCoeff() < kFarthest_m) {
+    centre_ = block_of(voxel_containing(p_world, facts_.voxel_m));
+  }
+}
+
+FlightState MapWatch::state() const {
+  if (feed_ == nullptr) return FlightState::kSaved;
+  if (feed_->is_over()) return FlightState::kOver;
+  return map_.frame_count() > 0 ? FlightState::kFlying : FlightState::kWaiting;
+}
+
+StatusReport MapWatch::status() const {
+  StatusReport status;
+  status.state = state();
+  status.window = map_.window();
+  status.trigger_centre_m = trigger_centre_m_;
+  status.frame_count = map_.frame_count();
+  status.blocks = map_.digest().blocks;
+  status.verdicts = verdicts_;
+  status.losses.resize(std::min(facts_.losses.size(), kMaxLosses));
+  if (last_frame_) {
+    status.memory_bytes = last_frame_->memory_bytes;
+    std::copy_n(last_frame_->lost.begin(), status.losses.size(), status.losses.begin());
+  }
+  if (feed_ != nullptr) status.reports_missed = static_cast<std::uint32_t>(feed_->reports_missed());
+  return status;
+}
+
+}  // namespace swiftlet::station

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <thread>
+
+#include "swiftlet/station/http_session_private.hpp"
+#include "swiftlet/station/server_private.hpp"
+
+namespace swiftlet::station {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+
+/// Picks from "a, b" what this server speaks; a client that offers nothing gets nothing.
+std::optional<HttpHost::Chosen> choose_viewer(std::string_view offered, const MapWatch& watch) {
+  while (!offered.empty()) {
+    const auto end = std::min(offered.find(','), offered.size());
+    std::string_view name = offered.substr(0, end);
+    offered.remove_prefix(std::min(end + 1, offered.size()));
+    while (name.starts_with(' ')) name.remove_prefix(1);
+    while (name.ends_with(' ')) name.remove_suffix(1);
+    for (const Subprotocol& known : subprotocols()) {
+      if (known.name == name) {
+        return HttpHost::Chosen{
+            known.make(watch),
+            std::string(name),
+            {.max_message = known.max_message, .messages_per_s = known.messages_per_s}};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+class Server final : public Station {
+ public:
+  Server(const StationOptions& options, MapWatch watch)
+      : Station(options.access.token),
+        options_(options),
+        watch_(std::move(watch)),
+        host_{options_.access,
+              [this](std::string_view offered) { return choose_viewer(offered, watch_); },
+              [this] { return clients_.size() < options_.max_clients; },
+              [this](auto session) { clients_.push_back(std::move(session)); }} {}
+
+  ~Server() override {
+    io_.stop();
+    if (thread_.joinable()) thread_.join();
+  }
+
+  Status listen() {
+    boost::system::error_code error;
+    const tcp::endpoint place(asio::ip::make_address(options_.listen.host), options_.listen.port);
+    const auto refused = [&](std::string remedy) {
+      return fail(ErrorCode::kIo, options_.listen.text(),
+                  fmt::format("cannot listen there: {}", error.message()), std::move(remedy));
+    };
+    acceptor_.open(place.protocol(), error);
+    if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
+    if (!error) acceptor_.bind(place, error);
+    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+    if (error)
+      return refused("choose another address with --listen, or port 0 for any that is free");
+    options_.listen.port = acceptor_.local_endpoint(error).port();
+    accept();
+    tick();
+    thread_ = std::thread([this] {
+      run_with_low_priority();
+      io_.run();
+    });
+    return Done{};
+  }
+
+  const ListenAddress& address() const override { return options_.listen; }
+
+ private:
+  void accept() {
+    acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
+      const bool has_room =
+          static_cast<std::size_t>(connection_.use_count()) <= options_.max_connections;
+      // Without room the socket is closed at once, as it goes out of scope.
+      if (!error && has_room)
+        std::make_shared<HttpSession>(std::move(socket), host_, connection_)->read();
+      if (error != asio::error::operation_aborted) accept();
+    });
+  }
+
+  void tick() {
+    timer_.expires_after(options_.tick);
+    timer_.async_wait([this](boost::system::error_code error) {
+      if (error) return;
+      look();
+      tick();
+    });
+  }
+
+  void look() {
+    std::erase_if(clients_, [](const auto& client) { return !client->is_open(); });
+    const MapWatch::Look look = watch_.look();
+    const auto now = std::chrono::steady_clock::now();
+    const auto shows_depth = [](const auto& client) { return client->viewer().wants_depth(); };
+    if (std::ranges::any_of(clients_, shows_depth)) watch_.ask_for_depth();
+    for (const auto& client : clients_) {
+      client->viewer().saw(look);
+      client->viewer().count(static_cast<std::uint32_t>(clients_.size()));
+      client->check(now);
+      client->pump();
+    }
+  }
+
+  StationOptions options_;
+  MapWatch watch_;
+  HttpHost host_;
+  asio::io_context io_{1};
+  tcp::acceptor acceptor_{io_};
+  asio::steady_timer timer_{io_};
+  std::shared_ptr<void> connection_ = std::make_shared<int>(0);  // its users are counted
+  std::vector<std::shared_ptr<SocketSession>> clients_;
+  std::thread thread_;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<Station>> start_server(const StationOptions& options, MapWatch watch) {
+  auto server = std::make_unique<Server>(options, std::move(watch));
+  if (auto listening = server->listen(); !listening) return forward_error(std::move(listening));
+  return server;
+}
+
+}  // namespace swiftlet::station

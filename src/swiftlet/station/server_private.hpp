@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "swiftlet/station/map_watch.hpp"
+#include "swiftlet/station/station.hpp"
+#include "swiftlet/station/viewer.hpp"
+
+namespace swiftlet::station {
+
+/// A language that a WebSocket client may ask for by name.
+struct Subprotocol {
+  std::string_view name;
+  std::unique_ptr<Viewer> (*make)(const MapWatch& watch);
+  std::size_t max_message;  ///< from the client [bytes]
+  double messages_per_s;    ///< from the client
+};
+/// The table of them: a protocol is a Viewer and a line there.
+[[nodiscard]] std::span<const Subprotocol> subprotocols();
+
+/// What is behind Station::start(): all that needs Boost.
+[[nodiscard]] Expected<std::unique_ptr<Station>> start_server(const StationOptions& options,
+                                                              MapWatch watch);
+
+}  // namespace swiftlet::station

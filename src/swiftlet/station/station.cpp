@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/station/station.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "swiftlet/station/server_private.hpp"
+
+namespace swiftlet::station {
+namespace {
+
+Status check(const StationOptions& options) {
+  if (!options.access.token.empty() && !is_good_token(options.access.token)) {
+    return fail(ErrorCode::kUsage, "--token", "the token must be 8 to 128 letters, digits, - or _",
+                "leave it out to be given one");
+  }
+  if (options.access.token.empty() && !options.listen.is_loopback()) {
+    return fail(ErrorCode::kUsage, fmt::format("--listen {}", options.listen.text()),
+                "others could reach this address, and there is no token",
+                "add --token with one of your own");
+  }
+  return Done{};
+}
+
+#if SWIFTLET_HAS_VIEW
+Expected<std::unique_ptr<Station>> start_checked(const StationOptions& options, MapWatch&& watch) {
+  if (auto fine = check(options); !fine) return forward_error(std::move(fine));
+  return start_server(options, std::move(watch));
+}
+#else
+Expected<std::unique_ptr<Station>> start_checked(const StationOptions& options, MapWatch&&) {
+  if (auto fine = check(options); !fine) return forward_error(std::move(fine));
+  return fail(ErrorCode::kUnsupported, "ground station", "this build has none",
+              "configure with -DSWIFTLET_WITH_VIEW=ON");
+}
+#endif
+
+}  // namespace
+
+Expected<std::unique_ptr<Station>> Station::start(const StationOptions& options, LiveFeed& feed) {
+  return start_checked(options, MapWatch(feed));
+}
+
+Expected<std::unique_ptr<Station>> Station::start(const StationOptions& options, SavedWorld saved) {
+  return start_checked(options, MapWatch(std::move(saved.facts), std::move(saved.map)));
+}
+
+std::string Station::url() const {
+  const std::string query = token_.empty() ? "" : fmt::format("?token={}", token_);
+  return fmt::format("http://{}/{}", address().text(), query);
+}
+
+void run_with_low_priority() {
+  constexpr int kNice = 10;
+  // On Linux this means the calling thread. Refused, the station is merely less modest.
+  static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice));
+}
+
+}  // namespace swiftlet::station

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "station/station_world.hpp"
+#include "station/wire_reader.hpp"
+#include "swiftlet/station/viewer.hpp"
+
+namespace swiftlet::station {
+namespace {
+
+using namespace std::chrono_literals;
+using Time = Viewer::Time;
+
+const OccupancyThresholds kThresholds{};
+
+/// A viewer, its client, and a clock that only the test moves.
+struct Pair {
+  explicit Pair(const MapWatch& watch) : viewer(make_page_viewer(watch)) {}
+
+  /// The next message, whether it arrives or not; false if there is none for now.
+  bool exchange(bool arrives = true) {
+    const auto message = viewer->next(now);
+    if (!message) return false;
+    if (message->is_text || !arrives) return true;
+    const auto sequence = WireReader::at<std::uint32_t>(message->data, 4);
+    if (sequence != client.next_sequence) say({1, 0, 0, 0}, {client.next_sequence, sequence - 1});
+    client.read(message->data);
+    return true;
+  }
+  void exchange_all() {
+    while (exchange()) {
+    }
+  }
+  void say(Bytes message, const std::vector<std::uint32_t>& words = {}) {
+    for (const std::uint32_t word : words) {
+      for (unsigned i = 0; i < 4; ++i) {
+        message.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
+      }
+    }
+    EXPECT_TRUE(viewer->received(false, message, now));
+  }
+  MapDigest digest() const { return client.digest(kThresholds); }
+
+  std::unique_ptr<Viewer> viewer;
+  WireReader client;
+  Time now = Time{} + 1h;
+};
+
+TEST(PageViewer, brings_a_client_to_exactly_the_map_and_seals_it) {
+  test::Random random;
+  RandomFlight flight(random);
+  MapWatch watch(flight.feed);
+  Pair pair(watch);
+  for (int i = 0; i < 80; ++i) {
+    flight.step();
+    pair.viewer->saw(watch.look());
+    if (random.chance(0.5)) pair.exchange_all();
+    pair.now += 50ms;
+  }
+  pair.exchange_all();
+  EXPECT_EQ(pair.digest(), watch.map().digest()) << random.repeat();
+  EXPECT_EQ(pair.client.seal, watch.map().digest()) << random.repeat();
+  EXPECT_EQ(pair.client.frame_numbers.size(), 80U);
+}
+
+TEST(PageViewer, heals_whatever_is_lost_on_the_way) {
+  test::Random random;
+  RandomFlight flight(random);
+  MapWatch watch(flight.feed);
+  Pair pair(watch);
+  for (int i = 0; i < 150; ++i) {
+    flight.step();
+    pair.viewer->saw(watch.look());
+    while (pair.exchange(!random.chance(0.3))) {
+    }
+    pair.now += 50ms;
+  }
+  flight.step();
+  for (int i = 0; i < 3; ++i) {  // a client notices a loss by the message after it
+    pair.viewer->saw(watch.look());
+    pair.exchange_all();
+    pair.now += 1s;
+  }
+  EXPECT_EQ(pair.digest(), watch.map().digest()) << random.repeat();
+}
+
+TEST(PageViewer, sends_everything_again_when_a_loss_is_too_long_ago) {
+  test::Random random;
+  RandomFlight flight(random);
+  MapWatch watch(flight.feed);
+  Pair pair(watch);
+  flight.step();
+  pair.viewer->saw(watch.look());
+  pair.exchange_all();
+  const auto packets = pair.client.next_sequence + 3 * ClientQueue::kPacketsRemembered;
+  while (pair.client.next_sequence < packets) {
+    flight.step();
+    pair.viewer->saw(watch.look());
+    pair.exchange_all();
+    pair.now += 1s;
+  }
+  pair.client.blocks.clear();
+  pair.say({1, 0, 0, 0}, {0, 2});
+  pair.exchange_all();
+  EXPECT_EQ(pair.digest(), watch.map().digest()) << random.repeat();
+}
+
+TEST(PageViewer, keeps_to_the_bandwidth_and_still_completes_the_map) {
+  test::Random random;
+  RandomFlight flight(random);
+  for (int i = 0; i < 40; ++i) flight.step();
+  MapWatch watch(flight.feed);
+  const MapWatch::Look look = watch.look();
+  Pair pair(watch);
+  constexpr std::uint32_t kRate = 125'000;  // 1 Mbit/s
+  pair.say({4, 0, 0, 0}, {kRate});
+  pair.viewer->saw(look);
+  const Time start = pair.now;
+  while (!pair.client.seal) {
+    pair.exchange_all();
+    pair.now += 10ms;
+    const double passed_s = std::chrono::duration<double>(pair.now - start).count();
+    // A tenth of a second at once, and one message of debt.
+    ASSERT_LE(static_cast<double>(pair.client.bytes), kRate * (passed_s + 0.1) + 40'000);
+    ASSERT_LT(passed_s, 60.0) << random.repeat();
+  }
+  EXPECT_GT(pair.now - start, 100ms) << "the map was too small to tell";
+  EXPECT_EQ(pair.digest(), watch.map().digest()) << random.repeat();
+}
+
+TEST(PageViewer, a_slow_client_gets_fewer_updates_and_never_an_older_map) {
+  test::Random random;
+  RandomFlight flight(random);
+  MapWatch watch(flight.feed);
+  Pair pair(watch);
+  for (int i = 0; i < 200; ++i) {
+    flight.step();
+    pair.viewer->saw(watch.look());
+    pair.now += 50ms;
+    (void)pair.exchange();  // one message a look, far less than what changes
+  }
+  // Each message holds its blocks as they are now: what waits is a set of places, not of states.
+  pair.client.blocks.clear();
+  const auto message = [&] {
+    for (;;) {
+      auto next = pair.viewer->next(pair.now);
+      if (next && !next->is_text && next->data[0] == 1) return next->data;
+    }
+  }();
+  pair.client.read(message);
+  ASSERT_FALSE(pair.client.blocks.empty());
+  for (const auto& [index, block] : pair.client.blocks) {
+    ASSERT_NE(watch.map().find(index), nullptr);
+    EXPECT_EQ(*watch.map().find(index), block);
+  }
+  pair.exchange_all();
+  EXPECT_LE(pair.client.frame_numbers.size(), 600U) << "the frames that wait are bounded";
+}
+
+TEST(PageViewer, sends_the_blocks_nearest_to_the_vehicle_first) {
+  WorldFacts facts = small_facts();
+  MapMirror map;
+  VoxelBlock block;
+  block.clear();
+  block.cells[0] = 200;
+  for (std::int32_t i = -200; i <= 200; ++i) map.put({i, 0, 0}, block, 1);
+  MapWatch watch(facts, std::move(map));
+  Pair pair(watch);
+  while (pair.client.blocks.empty()) ASSERT_TRUE(pair.exchange());
+  EXPECT_EQ(pair.client.blocks.size(), ClientQueue::kMaxBlocksPerPacket);
+  for (const auto& [index, cells] : pair.client.blocks) EXPECT_LE(std::abs(index.x), 32);
+}
+
+TEST(PageViewer, packs_blocks_that_lie_far_apart) {
+  MapMirror map;
+  VoxelBlock block;
+  block.clear();
+  block.cells[511] = 1;
+  for (const std::int32_t x : {-1'000'000, -32768, 0, 32767, 32768, 1'000'000}) {
+    map.put({x, -x, x}, block, 1);
+  }
+  MapWatch watch(small_facts(), std::move(map));
+  Pair pair(watch);
+  pair.exchange_all();
+  EXPECT_EQ(pair.digest(), watch.map().digest());
+  EXPECT_EQ(pair.client.blocks.size(), 6U);
+}
+
+TEST(PageViewer, holds_and_steps) {
+  test::Random random;
+  RandomFlight flight(random);
+  MapWatch watch(flight.feed);
+  Pair pair(watch);
+  const auto fly_on = [&] {
+    flight.step();
+    pair.viewer->saw(watch.look());
+    pair.now += 1s;
+    pair.exchange_all();
+  };
+  fly_on();
+  pair.say({3, 1, 0, 0});
+  const MapDigest held = pair.digest();
+  fly_on();
+  fly_on();
+  EXPECT_EQ(pair.digest(), held);
+  pair.say({3, 2, 0, 0});
+  pair.exchange_all();
+  EXPECT_EQ(pair.digest(), watch.map().digest()) << "a step brings it to the present";
+  const MapDigest stepped = pair.digest();
+  fly_on();
+  EXPECT_EQ(pair.digest(), stepped) << "and holds again";
+  pair.say({3, 0, 0, 0});
+  pair.exchange_all();
+  EXPECT_EQ(pair.digest(), watch.map().digest());
+}
+
+TEST(ClientQueue, is_bounded_behind_a_client_that_takes_nothing) {
+  MapMirror mirror;
+  ClientQueue queue;
+  for (std::int32_t i = 0; i < 100'000; i += 10) {
+    std::vector<BlockIndex> changed;
+    for (std::int32_t k = 0; k < 10; ++k) changed.push_back({i + k, 0, 0});
+    queue.mark(changed, mirror);  // blocks that have come and gone
+    ASSERT_LE(queue.pending(), 9000U);
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet::station

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include "support/seeds.hpp"
+#include "swiftlet/map/rolling_map.hpp"
+#include "swiftlet/station/map_watch.hpp"
+
+namespace swiftlet::station {
+
+/// Facts of a small live world.
+inline WorldFacts small_facts() {
+  WorldFacts facts;
+  facts.source = "sim:test";
+  facts.version = "1.2.3";
+  facts.is_live = true;
+  facts.voxel_m = 0.1;
+  facts.trigger_m = {1.0, 1.0, 0.5};
+  facts.min_range_m = 0.2;
+  facts.max_range_m = 5.0;
+  facts.stages = {"condition", "recentre", "integrate", "publish"};
+  facts.verdicts = {"integrated", "no_readings"};
+  facts.losses = {"no_pose", "pose_gap"};
+  return facts;
+}
+
+/// A map and a mapping thread's end of the feed, driven at random: cells change, the vehicle moves
+/// on, blocks leave the window.
+class RandomFlight {
+ public:
+  explicit RandomFlight(test::Random& random)
+      : random_(random), map_(*RollingMap::create({0.1, {4.0, 4.0, 1.6}, {0.5, 0.5, 0.5}})) {
+    feed.begin_world(map_.reader(), small_facts());
+  }
+
+  /// One frame.
+  void step() {
+    position_ += random_.vector(-0.4, 0.7);
+    position_.z() = 0.0;
+    Archive archive(*this);
+    FrameReport report;
+    report.has_shifted = map_.recentre(position_, &archive).moved;
+    const VoxelIndex at = voxel_containing(position_, map_.voxel_m());
+    for (int i = 0; i < 300; ++i) {
+      const VoxelIndex v{at.x + random_.integer(-18, 18), at.y + random_.integer(-18, 18),
+                         at.z + random_.integer(-7, 7)};
+      if (!map_.window().contains(block_of(v))) continue;
+      map_.writable(block_of(v)).cells[offset_in_block(v)] =
+          static_cast<LogOdds>(random_.integer(0, 255));
+    }
+    map_.publish(++frames_);
+    report.number = static_cast<std::uint32_t>(frames_);
+    report.T_world_camera =
+        Transform<World, Camera>::trusted(Eigen::Quaterniond::Identity(), position_);
+    feed.report(report);
+  }
+
+  /// What a ground station should know by now.
+  [[nodiscard]] MapDigest truth() const {
+    MapMirror all(small_facts().thresholds);
+    for (const auto& [index, block] : outside_) {
+      if (!map_.window().contains(index)) all.put(index, block, 1);
+    }
+    map_.for_each_known_block(
+        [&](const BlockIndex& index, const VoxelBlock& block) { all.put(index, block, 1); });
+    return all.digest();
+  }
+
+  LiveFeed feed;
+
+ private:
+  /// Forgets what comes back, as `--store drop` does.
+  class Archive final : public BlockArchive {
+   public:
+    explicit Archive(RandomFlight& flight) : flight_(flight) {}
+    void evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) override {
+      flight_.outside_[index] = block;
+      flight_.feed.evicted(index, block, version);
+    }
+    bool restore(const BlockIndex& index, VoxelBlock& out) override {
+      const auto found = flight_.outside_.find(index);
+      if (found == flight_.outside_.end()) return false;
+      out = found->second;
+      flight_.outside_.erase(found);
+      return true;
+    }
+    void expect_around(const BlockWindow&) override {}
+
+   private:
+    RandomFlight& flight_;
+  };
+
+  test::Random& random_;
+  RollingMap map_;
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
+  std::uint64_t frames_ = 0;
+  std::unordered_map<BlockIndex, VoxelBlock, BlockHash> outside_;
+};
+
+}  // namespace swiftlet::station

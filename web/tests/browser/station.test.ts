@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+// The page in a real browser, with the real program behind it, over a flight of the simulated rig.
+
+import {mkdtempSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {chromium, type Browser, type Page} from 'playwright-core';
+import {afterAll, afterEach, beforeAll, expect, it} from 'vitest';
+
+import {cellsOf, RunningProgram} from './program';
+
+const folder = mkdtempSync(join(tmpdir(), 'swiftlet-web-'));
+const map = join(folder, 'flat.swl');
+const kFrames = 60;
+const flight = ['map', 'sim:apartment', '--set', 'map.voxel_m=0.1', '--frames', String(kFrames), '--overwrite', '--realtime',
+  '-o', map, '--view', '--stay', '--listen', '127.0.0.1:0'];
+
+let browser: Browser;
+let page: Page;
+const faults: string[] = []; // of all pages: none is expected unless a test says so
+const requests: string[] = [];
+const running: RunningProgram[] = [];
+
+async function start(args: string[]): Promise<RunningProgram> {
+  const one = await RunningProgram.start(args, folder);
+  running.push(one);
+  return one;
+}
+async function open(url: string): Promise<void> {
+  page = await browser.newPage({viewport: {width: 1024, height: 760}});
+  page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
+  page.on('pageerror', (error) => faults.push(error.message));
+  page.on('request', (request) => requests.push(request.url()));
+  await page.goto(url);
+}
+const knowledge = () =>
+  page.evaluate(() => {
+    const {world, link, viewer} = window.swiftlet;
+    return {
+      digest: world.digest, sealed: world.sealedFrame, state: world.status?.state, gaps: link.gaps, seals: link.seals,
+      bytes: link.bytes, calls: viewer.renderer.info.render.calls, drawn: viewer.occupied.count, track: world.track.length,
+    };
+  });
+/// Playwright's own waitForFunction() evaluates text, which the page's policy forbids.
+async function until<T>(isTrue: (argument: T) => boolean, argument: T): Promise<void> {
+  const end = Date.now() + 60_000;
+  while (!(await page.evaluate(isTrue as never, argument))) {
+    if (Date.now() > end) throw new Error(`a minute has passed, and not: ${isTrue.toString()}`);
+    await page.waitForTimeout(50);
+  }
+}
+async function sealed(frame: number): Promise<void> {
+  await until((n) => window.swiftlet.world.sealedFrame >= n, frame);
+}
+
+beforeAll(async () => {
+  browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
+  });
+}, 60_000);
+afterEach(async () => {
+  await page?.close();
+  await Promise.all(running.splice(0).map((one) => one.end('SIGKILL')));
+  expect(faults.splice(0)).toEqual([]);
+});
+afterAll(async () => {
+  await browser?.close();
+  rmSync(folder, {recursive: true, force: true});
+});
+
+it('shows a flight, cell for cell, at 1 Mbit/s and through lost packets, and fetches nothing from elsewhere', async () => {
+  const program = await start(flight);
+  await open(program.url);
+  await sealed(5);
+  await page.selectOption('#limit', '125000');
+  await until(() => window.swiftlet.world.status?.rateLimit === 125_000, 0);
+  const start_ms = performance.now();
+  const before = (await knowledge()).bytes;
+  await page.evaluate(() => window.swiftlet.link.dropNext(4));
+  await program.says(/frames +\d+ in/);
+  await until(() => window.swiftlet.world.status?.state === 'over', 0);
+  await until(() => window.swiftlet.world.sealedFrame === window.swiftlet.world.status?.frame, 0);
+  const live = await knowledge();
+  const passed_s = (performance.now() - start_ms) / 1000;
+  expect(live.bytes - before).toBeLessThan(125_000 * (passed_s + 0.1) + 40_000);
+  expect(live.gaps).toBeGreaterThan(0);
+  expect(live.digest).toMatchObject(pick(cellsOf(map)));
+  expect(live.digest.occupied).toBeGreaterThan(5000);
+  expect(live.track).toBeGreaterThan(5);
+  await until(() => window.swiftlet.viewer.occupied.count === window.swiftlet.world.digest.occupied, 0);
+  expect((await knowledge()).calls).toBeLessThanOrEqual(10);
+  await page.locator('#state', {hasText: 'Flight over'}).waitFor();
+  for (const url of requests) expect(url.startsWith('blob:') || new URL(url).host).toBe(new URL(program.url).host);
+
+  // The saved file holds the same map, bit for bit.
+  expect(await program.end()).toBe(0);
+  const saved = await start(['view', map, '--listen', '127.0.0.1:0']);
+  await page.close();
+  faults.length = 0; // the link was lost
+  await open(saved.url);
+  await sealed(0);
+  expect((await knowledge()).digest).toEqual(live.digest);
+  await page.locator('#state', {hasText: 'Saved map'}).waitFor();
+});
+
+function pick(cells: {occupied: number; free: number}): {occupied: number; free: number} {
+  return {occupied: cells.occupied, free: cells.free};
+}
+
+it('slice, height and inspector tell what the map holds', async () => {
+  const program = await start(['view', map, '--listen', '127.0.0.1:0']);
+  await open(program.url);
+  await page.setViewportSize({width: 1100, height: 1100}); // a slice of several pixels a cell
+  await sealed(0);
+  await until(() => window.swiftlet.viewer.occupied.count > 0, 0);
+
+  // The rail: from its middle to near its upper end.
+  const rail = (await page.locator('#rail').boundingBox())!;
+  await page.mouse.move(rail.x + 10, rail.y + rail.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(rail.x + 10, rail.y + rail.height * 0.25, {steps: 4});
+  await page.mouse.up();
+  const z_m = await page.evaluate(() => window.swiftlet.slice.z_m);
+  expect(z_m).toBeGreaterThan(1.4);
+  expect(await page.locator('#slice-z').innerText()).toBe(`${z_m.toFixed(2)} m`);
+  await page.locator('#rail').press('ArrowDown');
+  expect(await page.evaluate(() => window.swiftlet.slice.z_m)).toBeCloseTo(z_m - 0.1, 6);
+
+  // The slice's colours are the cells of that layer: no cell is lost or made up.
+  const painted = await page.evaluate(() => {
+    const {world, slice} = window.swiftlet;
+    const sheet = document.querySelector<HTMLCanvasElement>('#slice')!;
+    const g = sheet.getContext('2d')!;
+    const box = sheet.getBoundingClientRect();
+    slice.draw();
+    const counts = {asked: 0, wrong: 0, occupied: 0};
+    const cellAt = (x: number, y: number): [number, number, number] | null => {
+      let cell: [number, number, number] | null = null;
+      const keep = slice.onPoint;
+      slice.onPoint = (c) => (cell = c);
+      sheet.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + x, clientY: box.top + y}));
+      slice.onPoint = keep;
+      return cell;
+    };
+    for (let x = 4; x < sheet.clientWidth - 4; x += 5) {
+      for (let y = 4; y < sheet.clientHeight - 4; y += 5) {
+        const cells = [-1, 0, 1].map((d) => cellAt(x + d, y + d));
+        if (!cells[1] || cells.some((c) => String(c) !== String(cells[1]))) continue; // on a border of cells
+        const state = world.stateOf(world.cell(...cells[1]));
+        const ratio = sheet.width / box.width;
+        const [r, , b] = g.getImageData(Math.floor(x * ratio), Math.floor(y * ratio), 1, 1).data;
+        const seen = b! > 180 && r! < 120 ? 'occupied' : b! < 120 ? 'free' : 'unknown';
+        ++counts.asked;
+        if (state === 'occupied') ++counts.occupied;
+        if (seen !== state) ++counts.wrong;
+      }
+    }
+    return counts;
+  });
+  expect(painted.asked).toBeGreaterThan(100);
+  expect(painted.occupied).toBeGreaterThan(5);
+  expect(painted.wrong).toBe(0);
+
+  // The inspector, over the first occupied cell that a row of points in the 3-D view meets.
+  await page.keyboard.press('3');
+  await page.waitForTimeout(1500);
+  const canvas = (await page.locator('#view').boundingBox())!;
+  let state = '';
+  for (let x = 0.2; x < 0.7 && state !== 'occupied'; x += 0.04) {
+    await page.mouse.move(canvas.x + canvas.width * x, canvas.y + canvas.height * 0.45);
+    await page.waitForTimeout(60);
+    if (await page.locator('#cell').isVisible()) state = await page.locator('#cell-state').innerText();
+  }
+  expect(state).toBe('occupied');
+  const cell = (await page.locator('#cell-index').innerText()).split(/\s+/).map(Number) as [number, number, number];
+  const byte = await page.evaluate((c) => window.swiftlet.world.cell(...c), cell);
+  expect(Number(await page.locator('#cell-byte').innerText())).toBe(byte);
+  expect(byte).toBeGreaterThanOrEqual(180);
+});
+
+it('comes back by itself when the server does', async () => {
+  const first = await start(['view', map, '--listen', '127.0.0.1:0']);
+  await open(first.url);
+  await sealed(0);
+  const before = await knowledge();
+  await page.selectOption('#limit', '125000');
+  const port = first.port;
+  await first.end('SIGKILL');
+  await page.locator('#banner[data-state=lost]').waitFor({state: 'visible'});
+  expect((await knowledge()).digest).toEqual(before.digest); // it still shows what it knew
+  await start(['view', map, '--listen', `127.0.0.1:${port}`]);
+  await until((n) => window.swiftlet.link.seals > n, before.seals);
+  expect((await knowledge()).digest).toEqual(before.digest);
+  await until(() => window.swiftlet.world.status?.rateLimit === 125_000, 0); // remembered
+  await page.locator('#banner').waitFor({state: 'hidden'});
+  faults.length = 0; // the browser says that the connection failed
+});
+
+it('pauses and steps', async () => {
+  const program = await start(['view', map, '--listen', '127.0.0.1:0']);
+  await open(program.url);
+  await sealed(0);
+  await page.keyboard.press(' ');
+  await page.locator('#banner[data-state=paused]').waitFor({state: 'visible'});
+  const {seals} = await knowledge();
+  await page.keyboard.press('.');
+  await until((n) => window.swiftlet.link.seals === n + 1, seals);
+  await page.keyboard.press(' ');
+  await page.locator('#banner').waitFor({state: 'hidden'});
+});
+
+it('shows nothing to who has no token', async () => {
+  const program = await start(['view', map, '--listen', '127.0.0.1:0', '--token', 'only-for-me']);
+  expect(program.url).toContain('?token=only-for-me');
+  await expect(open(program.url.replace('only-for-me', 'only-for-you'))).rejects.toThrow('ERR_HTTP_RESPONSE_CODE_FAILURE');
+  await expect.poll(() => faults.splice(0).join(), {timeout: 10_000}).toContain('401');
+  await page.close();
+  await open(program.url);
+  await sealed(0);
+});
