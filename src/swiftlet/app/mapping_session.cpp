@@ -77,6 +77,8 @@ Status MappingSession::integrate(const Frame& frame) {
   }
   const MapUpdate update = mapper_->integrate(frame);
   book(update);
+  if (frame.seen_at && update.verdict == FrameVerdict::kIntegrated)
+    summary_.latency.add_age(HostTime::clock::now() - *frame.seen_at);
   if (update.verdict != FrameVerdict::kIntegrated) return Done{};
   if (store_ == nullptr) return create_file(frame.T_world_camera.translation());
   if (!update.shift.moved) return Done{};
