@@ -52,6 +52,9 @@ TEST(RealTime, gives_every_frame_not_before_its_time_to_a_mapper_that_keeps_up) 
     EXPECT_EQ((*frame)->stamp, Stamp{} + milliseconds(20 * i));
     // The first frame starts the clock, at some time after `start`.
     EXPECT_GE(Clock::now() - start, milliseconds(20 * i));
+    ASSERT_TRUE((*frame)->seen_at);
+    EXPECT_GE(*(*frame)->seen_at - start, milliseconds(20 * i));
+    EXPECT_LE(*(*frame)->seen_at, Clock::now()) << "a frame is not given before it is seen";
   }
   const auto end = source->next();
   EXPECT_TRUE(end && !*end);

@@ -19,6 +19,11 @@ class Latency {
  public:
   void add(const StageTimes& times) { frames_.push_back(times); }
 
+  /// From the moment a frame was seen to the map that holds it; for frames that somebody waits for.
+  void add_age(Nanoseconds age) { ages_.push_back(age); }
+
+  [[nodiscard]] bool has_ages() const { return !ages_.empty(); }
+  [[nodiscard]] Nanoseconds age_percentile(double share) const { return percentile(ages_, share); }
   [[nodiscard]] std::size_t frame_count() const { return frames_.size(); }
   [[nodiscard]] Nanoseconds total() const;  ///< of all frames and stages
   [[nodiscard]] Nanoseconds frame_percentile(double share) const;
@@ -26,6 +31,7 @@ class Latency {
 
  private:
   std::vector<StageTimes> frames_;
+  std::vector<Nanoseconds> ages_;
 };
 
 }  // namespace swiftlet::app

@@ -80,6 +80,8 @@ Status MappingSession::integrate(const Frame& frame) {
   }
   const MapUpdate update = mapper_->integrate(frame);
   book(update);
+  if (frame.seen_at && update.verdict == FrameVerdict::kIntegrated)
+    summary_.latency.add_age(HostTime::clock::now() - *frame.seen_at);
   if (options_.observer != nullptr) options_.observer->frame_done(frame, update, *mapper_);
   if (update.verdict != FrameVerdict::kIntegrated) return Done{};
   if (store_ == nullptr) return create_file(frame.T_world_camera.translation());

@@ -26,6 +26,11 @@ std::string latency_text(const Latency& latency) {
                         milliseconds(latency.stage_percentile(stage, 0.50)),
                         milliseconds(latency.stage_percentile(stage, 0.99)));
   }
+  if (latency.has_ages()) {
+    text += fmt::format("  age        p50 {:.2f} ms, p99 {:.2f} ms from the camera to the map\n",
+                        milliseconds(latency.age_percentile(0.50)),
+                        milliseconds(latency.age_percentile(0.99)));
+  }
   return text;
 }
 
@@ -81,6 +86,10 @@ nlohmann::ordered_json latency_json(const Latency& latency) {
     json["stages"][std::string(kStageNames[i])] = {
         {"p50", milliseconds(latency.stage_percentile(stage, 0.50))},
         {"p99", milliseconds(latency.stage_percentile(stage, 0.99))}};
+  }
+  if (latency.has_ages()) {
+    json["camera_to_map"] = {{"p50", milliseconds(latency.age_percentile(0.50))},
+                             {"p99", milliseconds(latency.age_percentile(0.99))}};
   }
   return json;
 }

@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <optional>
 
 #include "swiftlet/base/frame_of.hpp"
 #include "swiftlet/base/time.hpp"
@@ -12,6 +14,9 @@
 
 namespace swiftlet {
 
+/// A moment on this computer's clock.
+using HostTime = std::chrono::steady_clock::time_point;
+
 /// What a depth camera saw, before anyone knows from where.
 struct DepthFrame {
   Stamp stamp;  ///< of the middle of the exposure
@@ -19,6 +24,7 @@ struct DepthFrame {
   PinholeIntrinsics intrinsics;
   std::uint8_t camera = 0;  ///< which one of the rig
   ClockDomain clock = ClockDomain::kUnspecified;
+  std::optional<HostTime> seen_at{};  ///< as in Frame
 };
 
 /// A depth image with the pose of the camera at its time: all that the mapper needs.
@@ -32,6 +38,9 @@ struct Frame {
   /// maps must start again.
   std::uint32_t pose_epoch = 0;
   double baseline_m = 0.0;  ///< of this camera's stereo pair; 0: as the mapper is configured
+  /// When it came from the camera, or is played as if it did; nullopt: nobody waits for it. How old
+  /// the map is that holds it is counted from here.
+  std::optional<HostTime> seen_at{};
 };
 
 }  // namespace swiftlet

@@ -36,6 +36,7 @@ void LiveRig::push(const PoseSample& pose) {
 void LiveRig::push(DepthFrame depth) {
   const std::lock_guard lock(mutex_);
   ++images_;
+  if (!depth.seen_at) depth.seen_at = std::chrono::steady_clock::now();
   rig_.push(std::move(depth));
   collect();
   changed_.notify_all();  // the camera lives, even if its image has no pose yet

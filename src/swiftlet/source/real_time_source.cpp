@@ -54,7 +54,7 @@ class RealTimeSource final : public FrameSource {
   const FrameTally& tally() const override { return tally_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = HostTime::clock;
 
   void play() {
     std::optional<Stamp> first;
@@ -75,6 +75,7 @@ class RealTimeSource final : public FrameSource {
 
   /// false if nobody wants it any more.
   bool deliver(Frame frame, Clock::time_point due) {
+    frame.seen_at = due;
     std::unique_lock lock(mutex_);
     if (changed_.wait_until(lock, due, [this] { return is_stopped_; })) return false;
     if (queue_.size() == policy_.capacity) {

@@ -94,10 +94,10 @@ Frame Rig::posed(DepthFrame depth, const TrackedPose& pose) {
       mask.emplace(*options_.body_box, camera.T_body_camera, depth.intrinsics);
     mask->clear(depth.depth);
   }
-  return Frame{depth.stamp,      std::move(depth.depth),
-               depth.intrinsics, pose.T_world_body * camera.T_body_camera,
-               depth.camera,     pose.mark.epoch,
-               camera.baseline_m};
+  return Frame{depth.stamp,       std::move(depth.depth),
+               depth.intrinsics,  pose.T_world_body * camera.T_body_camera,
+               depth.camera,      pose.mark.epoch,
+               camera.baseline_m, depth.seen_at};
 }
 
 std::optional<Frame> Rig::pop() {

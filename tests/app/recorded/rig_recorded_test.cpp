@@ -61,6 +61,13 @@ TEST_F(RigProgram, plays_at_the_speed_of_the_recording) {
     dropped += count.get<std::size_t>();
   EXPECT_EQ(summary["frames"].get<std::size_t>() + dropped, 8U);
   EXPECT_GE(summary["elapsed_s"].get<double>(), 7.0 / 30.0 - 0.001);
+  const json& age = summary["latency_ms"]["camera_to_map"];
+  EXPECT_GE(age["p99"].get<double>(), age["p50"].get<double>());
+  EXPECT_GE(age["p50"].get<double>(), summary["latency_ms"]["p50"].get<double>())
+      << "it holds the mapper's own time";
+  EXPECT_FALSE(map({"bag:" + bag("wall_v2.53.1.bag"), "-o", "b.swl"})["latency_ms"].contains(
+      "camera_to_map"))
+      << "nobody waits for a frame of a recording";
 }
 
 TEST_F(RigProgram, refuses_what_cannot_be_joined_and_leaves_no_map) {
