@@ -11,6 +11,7 @@
 #include "swiftlet/app/map_view.hpp"
 #include "swiftlet/app/parameter_table.hpp"
 #include "swiftlet/condition/depth_step.hpp"
+#include "swiftlet/eval/score.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/ray_method.hpp"
 #include "swiftlet/source/sources.hpp"
@@ -68,6 +69,7 @@ const std::array kKinds{
     Kind{"integrators", "parameter integrate.integrator", [] { return listed(integrators()); }},
     Kind{"exporters", "swiftlet export --to", [] { return listed(exporters()); }},
     Kind{"views", "swiftlet render --view", [] { return listed(map_views()); }},
+    Kind{"scores", "swiftlet score", [] { return listed(eval::scores()); }},
     Kind{"parameters", "swiftlet map --config, --set", listed_parameters},
 };
 
