@@ -31,17 +31,18 @@ sim::Object rod(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double d
   return {"rod", sim::Cylinder{from, to, diameter_m}};
 }
 
-/// Whether a point [m] lies in a box or a cylinder, from the definition.
-bool is_in(const sim::Object& object, const Eigen::Vector3d& p) {
+/// Whether a point [m] lies in a box or a cylinder, so deep, from the definition.
+bool is_in(const sim::Object& object, const Eigen::Vector3d& p, double deep_m = 0.0) {
   if (const auto* b = std::get_if<sim::Box>(&object.shape)) {
     const Eigen::Vector3d q = b->R_world_box.conjugate() * (p - b->centre_m);
-    return (q.cwiseAbs().array() <= 0.5 * b->size_m.array()).all();
+    return (q.cwiseAbs().array() <= 0.5 * b->size_m.array() - deep_m).all();
   }
   const auto& c = std::get<sim::Cylinder>(object.shape);
   const Eigen::Vector3d axis = (c.to_m - c.from_m).normalized();
   const double along = axis.dot(p - c.from_m);
   const double across = (p - c.from_m - along * axis).norm();
-  return along >= 0.0 && along <= (c.to_m - c.from_m).norm() && across <= 0.5 * c.diameter_m;
+  return along >= deep_m && along <= (c.to_m - c.from_m).norm() - deep_m &&
+         across <= 0.5 * c.diameter_m - deep_m;
 }
 
 TEST(ObjectCells, of_thick_objects_are_solid_where_their_centre_is_inside) {
@@ -54,7 +55,7 @@ TEST(ObjectCells, of_thick_objects_are_solid_where_their_centre_is_inside) {
     const HeldCells cells = held_by(object);
     for (int i = 0; i < 500; ++i) {
       const VoxelIndex v{random.integer(-12, 12), random.integer(-12, 12), random.integer(-12, 12)};
-      EXPECT_EQ(holds(cells, v) == Holds::kSolid, is_in(object, centre_of(v, 0.1)));
+      EXPECT_EQ(holds(cells, v) == Holds::kSolid, is_in(object, centre_of(v, 0.1), 0.005));
       const Eigen::Vector3d p = centre_of(v, 0.1) + random.vector(-0.0499, 0.0499);
       EXPECT_TRUE(holds(cells, v) != Holds::kNothing || !is_in(object, p))
           << "a cell with a point of the object holds some of it";

@@ -227,6 +227,20 @@ TEST_F(Scores, cells_where_something_moves_are_left_out) {
   EXPECT_EQ(result.values[0].value, 1.0);
 }
 
+TEST(Truth, a_rug_is_a_sliver_on_the_floor_and_a_shelf_is_solid_in_the_air) {
+  const std::vector<sim::Object> objects{
+      {"floor", sim::Box{{0, 0, -0.1}, {2, 2, 0.2}}},
+      {"rug", sim::Box{{0, 0, 0.006}, {1, 1, 0.012}}},
+      {"shelf", sim::Box{{0, 0, 0.55}, {1, 1, 0.02}}},
+      {"leg", sim::Cylinder{{0.75, 0.75, 0.0}, {0.75, 0.75, 0.4}, 0.02}}};
+  const Truth truth(objects, kVoxel_m, {{-10, -10, -2}, {9, 9, 9}});
+  EXPECT_EQ(truth.cells().at({0, 0, 0}).holds, Holds::kSliver);
+  EXPECT_EQ(truth.name_at({0, 0, 0}), "rug");
+  EXPECT_EQ(truth.cells().at({0, 0, 5}).holds, Holds::kSolid);
+  EXPECT_EQ(truth.cells().at({7, 7, 0}).holds, Holds::kSolid) << "it stands on the floor";
+  EXPECT_EQ(truth.name_at({7, 7, 0}), "leg (20 mm thin)");
+}
+
 TEST(LeaveOut, a_point_at_an_occupied_cell_is_met_and_a_ray_through_one_is_blocked) {
   const std::vector<SightLine> lines{{{0.05F, 0.05F, 0.05F}, {1.05F, 0.05F, 0.05F}}};
   Claims claims(box_around(lines, kVoxel_m), Occupancy::kFree);

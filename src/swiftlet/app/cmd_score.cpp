@@ -34,7 +34,7 @@ tl::expected<ScoreJob, Faults> job_of(const ScoreOptions& options) {
     config->mapper.depth.max_range_m = range_of(options.source, {});
   ScoreJob job{options.source, config->mapper, options.maps, options.frames};
   if (job.maps.empty()) {
-    job.maps = {config->mapper.integrate.integrator};
+    job.maps = {std::string(kThesisFusion), std::string(kSharpFusion)};
     if (make_octomap_contender(config->mapper, false)) job.maps.emplace_back(kOctomap);
   }
   return job;
@@ -65,7 +65,7 @@ Action declare_score(CLI::App& parser) {
       ->required();
   parser
       .add_option("--maps", o->maps,
-                  "integrators, and octomap; default: as configured, and octomap if it was built")
+                  "fusions or integrators, and octomap; default: thesis,sharp,octomap")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAMES");
@@ -81,7 +81,7 @@ Action declare_score(CLI::App& parser) {
   parser.footer(
       "Examples:\n"
       "  swiftlet score sim:apartment --set map.voxel_m=0.1\n"
-      "  swiftlet score sim:wires --maps projective,rays,octomap --set map.voxel_m=0.1\n"
+      "  swiftlet score sim:wires --maps sharp,octomap --set map.voxel_m=0.1\n"
       "  swiftlet score 7scenes:redkitchen/seq-01 --set map.voxel_m=0.05\n"
       "A simulated flight is judged by the truth: where matter is, and what of it could be seen\n"
       "from the poses that were flown. Of a recording every fifth frame is left out, and the map\n"

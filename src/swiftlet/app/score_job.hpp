@@ -17,7 +17,7 @@ namespace swiftlet::app {
 struct ScoreJob {
   std::string source;             ///< address
   MapperConfig config;            ///< of our maps; cell size and range of all
-  std::vector<std::string> maps;  ///< names of integrators, or "octomap"
+  std::vector<std::string> maps;  ///< names of fusions or integrators, or "octomap"
   std::size_t frames = 600;       ///< evenly over the flight
 };
 

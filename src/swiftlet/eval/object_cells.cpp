@@ -15,6 +15,9 @@ namespace {
 
 /// Against rounding, of coordinates in metres.
 constexpr double kRounding_m = 1e-9;
+/// Edges that a centre must lie within matter, for its cell to be solid: nearer to the surface half
+/// of the cell is empty, and poses are known no better.
+constexpr double kDeep = 0.05;
 
 using Corners = std::array<Eigen::Vector3d, 2>;  // least and greatest coordinates [m, world]
 
@@ -45,7 +48,7 @@ class BoxCells {
       : centre_m_(b.centre_m),
         axes_(b.R_world_box.toRotationMatrix()),
         half_m_(0.5 * b.size_m),
-        grown_m_(half_m_),
+        grown_m_(half_m_.array() - kDeep * voxel_m),
         half_cell_m_(0.5 * voxel_m) {
     for (int i = 0; i < 3; ++i) {
       if (b.size_m[i] < voxel_m)
@@ -54,12 +57,15 @@ class BoxCells {
   }
 
   [[nodiscard]] Corners corners() const {
-    const Eigen::Vector3d reach = axes_.cwiseAbs() * grown_m_;
+    const Eigen::Vector3d reach = axes_.cwiseAbs() * grown_m_.cwiseMax(half_m_);
     return {centre_m_ - reach, centre_m_ + reach};
   }
   [[nodiscard]] Holds at(const Eigen::Vector3d& centre) const {
     const Eigen::Vector3d p = axes_.transpose() * (centre - centre_m_);
-    if ((p.cwiseAbs().array() <= grown_m_.array() + kRounding_m).all()) return Holds::kSolid;
+    // Half open: of two cells that share a thin board evenly, one is solid.
+    const bool is_solid = (p.array() <= grown_m_.array() - kRounding_m).all() &&
+                          (p.array() >= -grown_m_.array() - kRounding_m).all();
+    if (is_solid) return Holds::kSolid;
     return overlaps(centre - centre_m_) ? Holds::kSliver : Holds::kNothing;
   }
 
@@ -113,10 +119,11 @@ class CylinderCells {
     const Eigen::Vector3d axis = to_m_ - from_m_;
     const double length = axis.norm();
     const double along = axis.dot(centre - from_m_) / length;
-    const double half_grown = 0.5 * std::max(length, voxel_m_);
+    const double deep_m = kDeep * voxel_m_;
+    const double half_grown = length < voxel_m_ ? 0.5 * voxel_m_ : 0.5 * length - deep_m;
     const double across = (centre - from_m_ - along / length * axis).norm();
     return std::abs(along - 0.5 * length) <= half_grown + kRounding_m &&
-           across <= radius_m_ + kRounding_m;
+           across <= radius_m_ - deep_m;
   }
   [[nodiscard]] bool is_on_axis(const Eigen::Vector3d& centre) const {
     const auto cell = voxel_containing(centre, voxel_m_);
@@ -225,6 +232,26 @@ void for_each_held_cell(const sim::Object& object, double voxel_m, const VoxelBo
   } else {
     visit_mesh(std::get<sim::TriangleMesh>(object.shape), voxel_m, box, visit);
   }
+}
+
+bool is_thin_along(const sim::Object& object, int axis, double voxel_m) {
+  const auto is_along = [axis](const Eigen::Vector3d& direction) {
+    Eigen::Index nearest = 0;
+    direction.cwiseAbs().maxCoeff(&nearest);
+    return nearest == axis;
+  };
+  if (const auto* b = std::get_if<sim::Box>(&object.shape)) {
+    const Eigen::Matrix3d R = b->R_world_box.toRotationMatrix();
+    for (int i = 0; i < 3; ++i) {
+      if (b->size_m[i] < voxel_m && is_along(R.col(i))) return true;
+    }
+    return false;
+  }
+  if (const auto* c = std::get_if<sim::Cylinder>(&object.shape)) {
+    const Eigen::Vector3d length = c->to_m - c->from_m;
+    return is_along(length) ? length.norm() < voxel_m : c->diameter_m < voxel_m;
+  }
+  return false;  // sheets are the surface of something
 }
 
 double thickness_of(const sim::Object& object) {

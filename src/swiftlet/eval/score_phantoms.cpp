@@ -7,13 +7,14 @@ namespace swiftlet::eval {
 
 ScoreResult score_phantoms(const Judged& judged);
 
-/// Cells called occupied with no matter within one cell, per minute of flight: at its end, and all
-/// that were there at one of the looks, once a second.
+/// Cells called occupied that were looked through and have no matter within one cell, per minute of
+/// flight: at its end, and all that were there at one of the looks, once a second. Claims about
+/// what nobody saw are the business of score_unknown().
 ScoreResult score_phantoms(const Judged& judged) {
   const Truth& truth = judged.truth;
   std::size_t last = 0, ever = 0;
   truth.cells().for_each([&](const VoxelIndex& v, const CellTruth& cell) {
-    if (judged.ever_occupied.at(v) == 0 || cell.is_swept) return;
+    if (judged.ever_occupied.at(v) == 0 || cell.is_swept || cell.through == 0) return;
     if (any_within(v, 1, [&](const VoxelIndex& n) { return truth.holds_matter(n); })) return;
     ++ever;
     last += judged.claims.at(v) == Occupancy::kOccupied ? 1 : 0;

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -17,6 +20,11 @@ namespace {
 /// Of all lines of sight, every so manieth is kept; a prime, so that it is another column each row.
 constexpr std::size_t kKeepEvery = 97;
 
+bool is_sheet(const sim::Object& object) {
+  return std::holds_alternative<sim::Plane>(object.shape) ||
+         std::holds_alternative<sim::TriangleMesh>(object.shape);
+}
+
 void count_up(std::uint16_t& counter) {
   if (counter < std::numeric_limits<std::uint16_t>::max()) ++counter;
 }
@@ -25,18 +33,39 @@ void count_up(std::uint16_t& counter) {
 
 Truth::Truth(std::vector<sim::Object> objects, double voxel_m, const VoxelBox& box)
     : voxel_m_(voxel_m), objects_(std::move(objects)), cells_(box, CellTruth{}) {
-  for (std::size_t i = 0; i < objects_.size(); ++i) {
-    const auto number = to<std::uint16_t>(i);
+  std::vector<std::uint16_t> by_thickness(objects_.size());
+  for (std::size_t i = 0; i < objects_.size(); ++i) by_thickness[i] = to<std::uint16_t>(i);
+  // The thinnest solid thing names the cell: a chair leg counts, not the floor it stands on.
+  std::ranges::stable_sort(by_thickness, std::ranges::greater{}, [this](std::uint16_t i) {
+    return is_sheet(objects_[i]) ? std::numeric_limits<double>::infinity()
+                                 : thickness_of(objects_[i]);
+  });
+  for (const std::uint16_t i : by_thickness) {
     for_each_held_cell(objects_[i], voxel_m, box, [&](const VoxelIndex& v, Holds holds) {
       CellTruth& cell = cells_.at(v);
-      // The thinnest solid thing names the cell: a chair leg counts, not the floor it stands on.
-      const bool is_thinner =
-          cell.holds == holds && thickness_of(objects_[i]) < thickness_of(objects_[cell.object]);
-      if (holds <= cell.holds && !is_thinner) return;
+      if (holds == Holds::kSolid && lies_on_another(v, i)) holds = Holds::kSliver;
+      if (holds < cell.holds) return;
       cell.holds = holds;
-      cell.object = number;
+      cell.object = i;
     });
   }
+}
+
+bool Truth::lies_on_another(const VoxelIndex& v, std::uint16_t object) const {
+  const auto is_thicker = [&](const VoxelIndex& n) {
+    if (!cells_.contains(n) || cells_.at(n).holds != Holds::kSolid) return false;
+    const sim::Object& other = objects_[cells_.at(n).object];
+    return is_sheet(other) || thickness_of(other) >= voxel_m_;
+  };
+  constexpr std::array<VoxelIndex, 3> kSteps{VoxelIndex{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_thin_along(objects_[object], axis, voxel_m_)) continue;
+    const VoxelIndex& step = kSteps[static_cast<std::size_t>(axis)];
+    if (is_thicker({v.x + step.x, v.y + step.y, v.z + step.z}) ||
+        is_thicker({v.x - step.x, v.y - step.y, v.z - step.z}))
+      return true;
+  }
+  return false;
 }
 
 void Truth::add(const SightLine& line) {

@@ -30,7 +30,8 @@ class Truth {
   /// A cell counts as seen after so many lines of sight.
   static constexpr std::uint16_t kEnoughLines = 4;
 
-  /// The static objects of a scene. REQUIRES: at most 65535 objects.
+  /// The static objects of a scene. What is thinner than a cell and lies on something thicker, as a
+  /// rug on a floor, adds a sliver to the cells before it. REQUIRES: at most 65535 objects.
   Truth(std::vector<sim::Object> objects, double voxel_m, const VoxelBox& box);
 
   /// Books a line of sight. It ends a quarter of a cell behind the surface, so that one on the
@@ -64,6 +65,8 @@ class Truth {
   [[nodiscard]] const std::vector<SightLine>& sight_lines() const { return kept_; }
 
  private:
+  [[nodiscard]] bool lies_on_another(const VoxelIndex& v, std::uint16_t object) const;
+
   double voxel_m_;
   std::vector<sim::Object> objects_;
   CellGrid<CellTruth> cells_;

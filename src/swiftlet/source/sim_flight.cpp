@@ -64,6 +64,7 @@ Expected<SimFlight> read_sim_flight(std::string_view rest) {
                 fmt::format("the flight takes {:.1f} s", seconds(scene->flight.duration())));
   }
   scene->seed = options->seed.value_or(scene->seed);
+  scene->camera.rate_hz = options->rate_hz.value_or(scene->camera.rate_hz);
   if (!options->has_noise) make_ideal(*scene);
   if (!options->rig_file) place_cameras(*scene, options->cameras, options->rig);
   SimFlight flight{std::move(*scene), std::move(*options), {}};
