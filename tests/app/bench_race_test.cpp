@@ -105,6 +105,7 @@ class Diarist final : public app::Contender {
     return times;
   }
   [[nodiscard]] std::size_t map_bytes() const override { return 0; }
+  void read_claims(eval::Claims&) const override {}
 
  private:
   std::string name_;

@@ -60,6 +60,7 @@ void change(const ConfigField&, Eigen::Vector3d& value) { value *= 0.6; }
 void change(const ConfigField& field, std::string& value) {
   if (field.key == "integrate.ray_method") value = "line_drawing";
   if (field.key == "integrate.integrator") value = "projective";
+  if (field.key == "integrate.fusion") value = "sharp";
 }
 void change(const ConfigField&, std::vector<std::string>& value) { value.pop_back(); }
 
@@ -99,6 +100,17 @@ TEST(MapperConfig, threads_change_no_output_and_a_deadline_does) {
   EXPECT_TRUE(outcome_of(config) == before);
   config.integrate.max_frame_ms = 1e-6;
   EXPECT_FALSE(outcome_of(config) == before);
+}
+
+TEST(MapperConfig, sharp_fusion_adds_its_steps_behind_the_range_gate) {
+  MapperConfig config;
+  config.integrate.fusion = "sharp";
+  EXPECT_EQ(config.conditioning().steps,
+            (std::vector<std::string>{"range_gate", "lone_pixels", "smooth", "to_centres",
+                                      "near_downsample"}));
+  config.integrate.fusion = "blunt";
+  ASSERT_EQ(config.faults().size(), 1U);
+  EXPECT_EQ(config.faults().front().where, "integrate.fusion");
 }
 
 TEST(MapperConfig, an_integrator_is_chosen_by_its_name) {

@@ -7,11 +7,13 @@
 #include <memory>
 #include <optional>
 
+#include "swiftlet/eval/cell_grid.hpp"
 #include "swiftlet/pipeline/mapper.hpp"
 
 namespace swiftlet::app {
 
-/// A way from raw depth images and poses to a map, as `swiftlet bench` measures it.
+/// A way from raw depth images and poses to a map, as `swiftlet bench` measures and `swiftlet
+/// score` judges it.
 class Contender {
  public:
   virtual ~Contender() = default;
@@ -20,11 +22,14 @@ class Contender {
   virtual std::optional<StageTimes> fuse(const Frame& frame) = 0;
   /// Memory of the map alone, without scratch; 0 if there is none.
   [[nodiscard]] virtual std::size_t map_bytes() const = 0;
+  /// Tells what the map claims of every cell of claims.box().
+  virtual void read_claims(eval::Claims& claims) const = 0;
 };
 
-/// Ours: the whole mapper. Errors: those of Mapper::create().
-[[nodiscard]] Expected<std::unique_ptr<Contender>> make_mapper_contender(
-    const MapperConfig& config);
+/// Ours: the whole mapper. `keeps_all`: what leaves the window is kept, too, and belongs to the
+/// claims. Errors: those of Mapper::create().
+[[nodiscard]] Expected<std::unique_ptr<Contender>> make_mapper_contender(const MapperConfig& config,
+                                                                         bool keeps_all = false);
 
 /// OctoMap's insertPointCloud(), the conversion to its point cloud included; null if Swiftlet was
 /// built without OctoMap. `is_discretised`: one ray a cell, OctoMap's own short cut.

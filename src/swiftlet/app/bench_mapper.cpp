@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "swiftlet/app/bench_contender.hpp"
 #include "swiftlet/app/bench_points.hpp"
+#include "swiftlet/eval/memory_archive.hpp"
 
 namespace swiftlet::app {
 namespace {
 
 class MapperContender final : public Contender {
  public:
-  explicit MapperContender(Mapper mapper) : mapper_(std::move(mapper)) {}
+  MapperContender(Mapper mapper, std::unique_ptr<eval::MemoryArchive> archive)
+      : archive_(std::move(archive)), mapper_(std::move(mapper)) {}
 
   std::optional<StageTimes> fuse(const Frame& frame) override {
     const MapUpdate update = mapper_.integrate(frame);
@@ -21,7 +24,30 @@ class MapperContender final : public Contender {
   }
   [[nodiscard]] std::size_t map_bytes() const override { return mapper_.map().memory_bytes(); }
 
+  void read_claims(eval::Claims& claims) const override {
+    const OccupancyThresholds& thresholds = mapper_.config().occupancy;
+    const BlockIndex first = block_of(claims.box().first), last = block_of(claims.box().last);
+    const BlockWindow blocks{first,
+                             {last.x - first.x + 1, last.y - first.y + 1, last.z - first.z + 1}};
+    for_each_block(blocks, [&](const BlockIndex& index) {
+      const VoxelBlock* block = find(index);
+      for (int i = 0; i < kBlockVoxels; ++i) {
+        const VoxelIndex v = voxel_at(index, i);
+        if (!claims.contains(v)) continue;
+        claims.at(v) = block == nullptr
+                           ? Occupancy::kUnknown
+                           : thresholds.classify(block->cells[static_cast<std::size_t>(i)]);
+      }
+    });
+  }
+
  private:
+  [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const {
+    if (mapper_.map().window().contains(index)) return mapper_.map().find(index);
+    return archive_ == nullptr ? nullptr : archive_->find(index);
+  }
+
+  std::unique_ptr<eval::MemoryArchive> archive_;  // before the mapper, which calls it
   Mapper mapper_;
 };
 
@@ -38,6 +64,9 @@ class PointsContender final : public Contender {
     return times;
   }
   [[nodiscard]] std::size_t map_bytes() const override { return 0; }
+  void read_claims(eval::Claims& claims) const override {
+    std::ranges::fill(claims.cells(), Occupancy::kUnknown);
+  }
 
  private:
   ConditionOptions range_;
@@ -46,10 +75,12 @@ class PointsContender final : public Contender {
 
 }  // namespace
 
-Expected<std::unique_ptr<Contender>> make_mapper_contender(const MapperConfig& config) {
-  auto mapper = Mapper::create(config);
+Expected<std::unique_ptr<Contender>> make_mapper_contender(const MapperConfig& config,
+                                                           bool keeps_all) {
+  auto archive = keeps_all ? std::make_unique<eval::MemoryArchive>() : nullptr;
+  auto mapper = Mapper::create(config, archive.get());
   if (!mapper) return forward_error(std::move(mapper));
-  return std::make_unique<MapperContender>(std::move(*mapper));
+  return std::make_unique<MapperContender>(std::move(*mapper), std::move(archive));
 }
 
 std::unique_ptr<Contender> make_points_contender(const MapperConfig& config) {

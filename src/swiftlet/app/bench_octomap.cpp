@@ -7,6 +7,8 @@
 
 #include <octomap/octomap.h>
 
+#include <algorithm>
+
 #include "swiftlet/app/bench_points.hpp"
 
 namespace swiftlet::app {
@@ -36,7 +38,32 @@ class OctomapContender final : public Contender {
   }
   [[nodiscard]] std::size_t map_bytes() const override { return tree_.memoryUsage(); }
 
+  void read_claims(eval::Claims& claims) const override {
+    std::ranges::fill(claims.cells(), Occupancy::kUnknown);
+    const octomap::OcTreeKey first = key_of(claims.box().first), last = key_of(claims.box().last);
+    for (auto leaf = tree_.begin_leafs_bbx(first, last), end = tree_.end_leafs_bbx(); leaf != end;
+         ++leaf) {
+      const Occupancy state = tree_.isNodeOccupied(*leaf) ? Occupancy::kOccupied : Occupancy::kFree;
+      const int edge = 1 << (tree_.getTreeDepth() - leaf.getDepth());  // of a pruned node [cells]
+      const octomap::OcTreeKey corner = leaf.getIndexKey();
+      for (int i = 0; i < edge * edge * edge; ++i) {
+        const VoxelIndex v{corner[0] - kZeroKey + i % edge, corner[1] - kZeroKey + i / edge % edge,
+                           corner[2] - kZeroKey + i / edge / edge};
+        if (claims.contains(v)) claims.at(v) = state;
+      }
+    }
+  }
+
  private:
+  /// OctoMap counts its cells from here, on the same grid as ours.
+  static constexpr int kZeroKey = 32768;
+  static octomap::OcTreeKey key_of(const VoxelIndex& v) {
+    const auto key = [](std::int32_t i) {
+      return static_cast<octomap::key_type>(std::clamp(i + kZeroKey, 0, 2 * kZeroKey - 1));
+    };
+    return {key(v.x), key(v.y), key(v.z)};
+  }
+
   ConditionOptions range_;
   bool is_discretised_;
   octomap::OcTree tree_;

@@ -24,18 +24,15 @@ bool has_reading(const DepthImage& depth, double max_range_m) {
   });
 }
 
-/// Images that the source has been through, those that it could not deliver included.
+}  // namespace
+
 std::size_t images_seen(const FrameTally& tally) {
   return std::accumulate(tally.lost.begin(), tally.lost.end(), tally.delivered);
 }
 
-/// The j-th frame to be held is number j * available / wanted of the flight. One that is missing
-/// there is made up for by the next.
-bool is_wanted(std::size_t number, std::size_t held, std::size_t wanted, std::size_t available) {
+bool is_due(std::size_t number, std::size_t held, std::size_t wanted, std::size_t available) {
   return held < wanted && held * available <= number * wanted;
 }
-
-}  // namespace
 
 double range_of(const std::string& address, const WorkloadOptions& options) {
   const bool is_simulated = address.starts_with("sim:");
@@ -58,7 +55,7 @@ Expected<Workload> read_workload(FrameSource& source, const WorkloadOptions& opt
     if (!*frame) break;
     const std::size_t seen = images_seen(source.tally());
     progress.update(seen);
-    if (!is_wanted(seen - 1, made.frames.size(), wanted, made.available)) continue;
+    if (!is_due(seen - 1, made.frames.size(), wanted, made.available)) continue;
     if (has_reading((*frame)->depth, made.max_range_m)) made.frames.push_back(std::move(**frame));
   }
   progress.finish();

@@ -37,6 +37,15 @@ struct Workload {
 /// Errors: those of the source; kCorruptInput if no frame can be measured.
 [[nodiscard]] Expected<Workload> read_workload(FrameSource& source, const WorkloadOptions& options);
 
+/// Images that a source has been through, those that it could not deliver included.
+[[nodiscard]] std::size_t images_seen(const FrameTally& tally);
+
+/// Whether image `number` of a flight of `available` is the next one of `wanted` that lie evenly
+/// over it, when `held` of them have been taken. The j-th is number j * available / wanted; one
+/// that is missing there is made up for by the next.
+[[nodiscard]] bool is_due(std::size_t number, std::size_t held, std::size_t wanted,
+                          std::size_t available);
+
 /// The range that a source is measured with.
 [[nodiscard]] double range_of(const std::string& address, const WorkloadOptions& options);
 

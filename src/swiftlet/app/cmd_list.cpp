@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/app/experiment.hpp"
 #include "swiftlet/app/map_view.hpp"
 #include "swiftlet/app/parameter_table.hpp"
 #include "swiftlet/condition/depth_step.hpp"
+#include "swiftlet/eval/score.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/ray_method.hpp"
 #include "swiftlet/sim/built_in_scenes.hpp"
@@ -82,6 +84,8 @@ const std::array kKinds{
     Kind{"integrators", "parameter integrate.integrator", [] { return listed(integrators()); }},
     Kind{"exporters", "swiftlet export --to", [] { return listed(exporters()); }},
     Kind{"views", "swiftlet render --view", [] { return listed(map_views()); }},
+    Kind{"scores", "swiftlet score", [] { return listed(eval::scores()); }},
+    Kind{"experiments", "swiftlet experiment", [] { return listed(experiments()); }},
     Kind{"parameters", "swiftlet map --config, --set", listed_parameters},
 };
 

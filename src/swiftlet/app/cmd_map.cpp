@@ -60,12 +60,6 @@ tl::expected<LoadedConfig, Faults> config_of(const MapOptions& options) {
   return load_config(input);
 }
 
-/// What the source knows of its stereo pair holds, unless the user says otherwise.
-void adopt_baseline(const SourceInfo& info, LoadedConfig& config) {
-  const bool is_given = config.places.contains("sensor.baseline_m");
-  if (info.baseline_m && !is_given) config.mapper.sensor.baseline_m = *info.baseline_m;
-}
-
 SessionOptions session_options(const MapOptions& options, const SourceInfo& info,
                                const MapperConfig& config) {
   SessionOptions session;
@@ -154,7 +148,7 @@ Faults map(const MapOptions& options) {
   if (!source) return fault_of(std::move(source));
   if (options.in_real_time) source = play_in_real_time(std::move(*source));
   const SourceInfo info = (*source)->info();
-  adopt_baseline(info, *config);
+  adopt_baseline(info.baseline_m, *config);
 
   auto watch = start_watch(options);
   if (!watch) return fault_of(std::move(watch));

@@ -14,6 +14,8 @@
   X(export, "write a map in another program's format")        \
   X(compare, "count the cells in which two maps differ")      \
   X(bench, "measure how fast maps are built, beside OctoMap") \
+  X(score, "measure how right maps are, beside OctoMap")      \
+  X(experiment, "repeat the experiments of the thesis")       \
   X(check, "look for faults in map files and config files")   \
   X(list, "list every source, method, format, view, parameter")
 

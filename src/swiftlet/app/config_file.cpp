@@ -170,6 +170,11 @@ tl::expected<LoadedConfig, Faults> parse_config(const std::string& yaml, const s
   return checked(*settings);
 }
 
+void adopt_baseline(const std::optional<double>& baseline_m, LoadedConfig& config) {
+  const bool is_given = config.places.contains("sensor.baseline_m");
+  if (baseline_m && !is_given) config.mapper.sensor.baseline_m = *baseline_m;
+}
+
 std::string config_to_yaml(const MapperConfig& config) {
   std::string yaml;
   std::string group;

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct LoadedConfig {
 /// behind it, and within its limits. Errors: all faults at once, each with file and line; kNotFound
 /// or kIo if the file cannot be read, kInvalidConfig for what is in it.
 [[nodiscard]] tl::expected<LoadedConfig, Faults> load_config(const ConfigInput& input);
+
+/// What a source knows of its stereo pair [m] holds, unless the user says otherwise.
+void adopt_baseline(const std::optional<double>& baseline_m, LoadedConfig& config);
 
 /// All parameters as a YAML file that load_config() reads back to the same values, bit for bit.
 [[nodiscard]] std::string config_to_yaml(const MapperConfig& config);

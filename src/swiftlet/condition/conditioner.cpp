@@ -15,10 +15,15 @@ Expected<Conditioner> Conditioner::create(const ConditionOptions& options) {
   return conditioner;
 }
 
-const ConditionedDepth& Conditioner::clean(const DepthImage& depth) {
+const ConditionedDepth& Conditioner::clean(const DepthImage& depth, double noise_per_m,
+                                           double half_cell_m) {
   depth_.raw = depth.raw;  // same size: copies without allocating
   depth_.unit_m = depth.unit_m;
   depth_.ratio = 1;
+  depth_.noise_per_m = static_cast<float>(noise_per_m);
+  depth_.half_cell_m = static_cast<float>(half_cell_m);
+  depth_.noise_left = 1.0F;
+  depth_.shift_m = 0.0F;
   for (const auto& step : steps_) step->apply(depth_);
   return depth_;
 }

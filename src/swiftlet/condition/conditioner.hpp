@@ -18,8 +18,10 @@ class Conditioner {
   /// Errors: kUsage for a step that does not exist, naming those that do.
   [[nodiscard]] static Expected<Conditioner> create(const ConditionOptions& options);
 
-  /// The result belongs to the conditioner and is good until the next call.
-  [[nodiscard]] const ConditionedDepth& clean(const DepthImage& depth);
+  /// The result belongs to the conditioner and is good until the next call. `noise_per_m` and
+  /// `half_cell_m`: of the sensor and the map, see ConditionedDepth.
+  [[nodiscard]] const ConditionedDepth& clean(const DepthImage& depth, double noise_per_m = 0.004,
+                                              double half_cell_m = 0.0);
 
  private:
   Conditioner() = default;

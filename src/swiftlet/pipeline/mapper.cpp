@@ -20,7 +20,7 @@ Expected<Mapper> Mapper::create(const MapperConfig& config, BlockArchive* archiv
     return tl::make_unexpected(std::move(faults.front()));
   auto map = RollingMap::create(config.map);
   if (!map) return forward_error(std::move(map));
-  auto conditioner = Conditioner::create(config.depth);
+  auto conditioner = Conditioner::create(config.conditioning());
   if (!conditioner) return forward_error(std::move(conditioner));
   auto integrator = make_integrator(config.integrate);
   if (!integrator) return forward_error(std::move(integrator));
@@ -33,7 +33,9 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
       archive_(archive),
       map_(std::move(map)),
       conditioner_(std::move(conditioner)),
-      integrator_(std::move(integrator)) {}
+      integrator_(std::move(integrator)) {
+  if (config.integrate.fusion == kSharpFusion) thin_.emplace();
+}
 
 std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) const {
   const auto& raw = frame.depth.raw;
@@ -53,7 +55,12 @@ MapUpdate Mapper::integrate(const Frame& frame) {
     return update;
   }
   StageTimer timer(update.times);
-  const ConditionedDepth& depth = conditioner_.clean(frame.depth);
+  SensorOptions instrument = config_.sensor;
+  if (frame.baseline_m > 0.0) instrument.baseline_m = frame.baseline_m;
+  const double noise_per_m =
+      instrument.subpixel_px / (frame.intrinsics.fx() * instrument.baseline_m);
+  const ConditionedDepth& depth =
+      conditioner_.clean(frame.depth, noise_per_m, 0.5 * map_.voxel_m());
   timer.finish(Stage::kCondition);
   if (!has_readings(depth)) {
     update.verdict = FrameVerdict::kNoReadings;
@@ -61,11 +68,17 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   }
   update.shift = map_.recentre(frame.T_world_camera.translation(), archive_);
   timer.finish(Stage::kRecentre);
-  SensorOptions instrument = config_.sensor;
-  if (frame.baseline_m > 0.0) instrument.baseline_m = frame.baseline_m;
+  instrument.subpixel_px *= double{depth.noise_left};
+  if (thin_) {
+    // With the noise averaged away, k need not carry far walls, and half a cell keeps them thin.
+    double& k_m = instrument.model.importance_m;
+    k_m = std::min(k_m, 0.5 * map_.voxel_m());
+  }
   const StereoSensor sensor(frame.intrinsics, instrument, map_.voxel_m(), depth.ratio);
-  update.tally = integrator_->integrate(
-      {depth, frame.intrinsics, frame.T_world_camera, frame_count_}, sensor, map_);
+  const DepthView view{depth, frame.intrinsics, frame.T_world_camera, frame_count_};
+  if (thin_) thin_->collect(view, map_);
+  update.tally = integrator_->integrate(view, sensor, map_);
+  if (thin_) thin_->protect(map_);
   ++frame_count_;
   timer.finish(Stage::kIntegrate);
   update.was_published = map_.publish(frame_count_);

@@ -10,6 +10,7 @@
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/integrate/integrator.hpp"
+#include "swiftlet/integrate/thin_hits.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/pipeline/mapper_config.hpp"
 #include "swiftlet/pipeline/stage_times.hpp"
@@ -76,6 +77,7 @@ class Mapper {
   RollingMap map_;
   Conditioner conditioner_;
   std::unique_ptr<Integrator> integrator_;
+  std::optional<ThinHits> thin_;  // with sharp fusion only
   std::uint64_t frame_count_ = 0;
 };
 

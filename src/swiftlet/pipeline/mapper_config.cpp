@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <type_traits>
 
 #include "swiftlet/condition/conditioner.hpp"
@@ -45,6 +46,15 @@ void keep_fault(std::vector<Error>& faults, std::string_view key, Expected<T>&& 
 
 }  // namespace
 
+ConditionOptions MapperConfig::conditioning() const {
+  ConditionOptions options = depth;
+  if (integrate.fusion != kSharpFusion) return options;
+  const auto gate = std::ranges::find(options.steps, "range_gate");
+  const auto behind = gate == options.steps.end() ? options.steps.begin() : gate + 1;
+  options.steps.insert(behind, {"lone_pixels", "smooth", "to_centres"});
+  return options;
+}
+
 std::vector<Error> MapperConfig::faults() const {
   std::vector<Error> faults;
   visit_config(*this,
@@ -56,6 +66,11 @@ std::vector<Error> MapperConfig::faults() const {
   keep_fault(faults, "depth.steps", Conditioner::create(depth));
   keep_fault(faults, "integrate.integrator",
              find_registered(integrators(), integrate.integrator, "integrator"));
+  if (integrate.fusion != kThesisFusion && integrate.fusion != kSharpFusion) {
+    faults.push_back({ErrorCode::kInvalidConfig, "integrate.fusion",
+                      fmt::format("unknown fusion '{}'", integrate.fusion),
+                      "known are: thesis, sharp"});
+  }
   keep_fault(faults, "integrate.ray_method", find_ray_method(integrate.ray_method));
   if (faults.empty()) keep_fault(faults, "map", RollingMap::create(map));
   return faults;

@@ -15,6 +15,11 @@
 
 namespace swiftlet {
 
+/// How the readings of a frame become evidence: as the thesis has it, or with readings that are
+/// weighed against their neighbours first and thin things kept (docs/accuracy.md).
+inline constexpr std::string_view kThesisFusion = "thesis";
+inline constexpr std::string_view kSharpFusion = "sharp";
+
 /// Every parameter of the mapper, with its default.
 struct MapperConfig {
   RollingMap::Options map;
@@ -22,6 +27,9 @@ struct MapperConfig {
   SensorOptions sensor;
   IntegrateOptions integrate;
   OccupancyThresholds occupancy;
+
+  /// The options of the depth steps, with those that the fusion adds behind the range gate.
+  [[nodiscard]] ConditionOptions conditioning() const;
 
   /// All faults at once; empty if the config can be used. Each names its key.
   [[nodiscard]] std::vector<Error> faults() const;
@@ -72,6 +80,11 @@ void visit_config(Config& c, Visit&& visit) {
   visit(
       ConfigField{"integrate.integrator", "how a frame is fused (see `swiftlet list integrators`)"},
       c.integrate.integrator);
+  visit(
+      ConfigField{"integrate.fusion",
+                  "thesis: the thesis's rule; sharp: noise is averaged, edges are dropped and thin "
+                  "things kept first"},
+      c.integrate.fusion);
   visit(ConfigField{"integrate.ray_method", "how rays are traced (see `swiftlet list rays`)"},
         c.integrate.ray_method);
   visit(ConfigField{"integrate.logodds_per_step", "one step of a cell's byte, in log-odds", 0.001,

@@ -5,11 +5,8 @@
 
 #if SWIFTLET_HAS_EMBREE
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -20,47 +17,18 @@
 #include "swiftlet/base/voxel_index.hpp"
 #include "swiftlet/sim/pose_faults.hpp"
 #include "swiftlet/sim/ray_caster.hpp"
-#include "swiftlet/sim/scene_file.hpp"
 #include "swiftlet/sim/stereo_camera.hpp"
 #include "swiftlet/sim/tracker.hpp"
 #include "swiftlet/source/rig.hpp"
-#include "swiftlet/source/sim_options.hpp"
+#include "swiftlet/source/sim_flight.hpp"
 #include "swiftlet/source/t265_axes.hpp"
 
 namespace swiftlet {
 namespace {
 
-/// The scene's camera, and others like it, evenly around the body.
-void place_cameras(const sim::Scene& scene, std::size_t count, RigOptions& rig) {
-  const RigCamera first = rig.cameras.front();
-  rig.cameras.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    const double yaw_rad =
-        2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
-    const auto turn = Transform<Body, Body>::trusted(sim::rotation_from_ypr(yaw_rad, 0.0, 0.0),
-                                                     Eigen::Vector3d::Zero());
-    RigCamera camera = first;
-    camera.name = fmt::format("camera{}", i);
-    camera.T_body_camera = i == 0 ? scene.T_body_camera : turn * scene.T_body_camera;
-    rig.cameras.push_back(std::move(camera));
-  }
-}
-
-void make_ideal(sim::Scene& scene) {
-  scene.camera.is_ideal = true;
-  scene.tracker = {.rate_hz = scene.tracker.rate_hz,
-                   .position_noise_m = 0.0,
-                   .attitude_noise_rad = 0.0,
-                   .drift_m_per_sqrt_s = 0.0,
-                   .yaw_drift_rad_per_sqrt_s = 0.0,
-                   .medium_after_s = 0.0,
-                   .high_after_s = 0.0,
-                   .jump = std::nullopt};
-}
-
 /// The scene with its instruments, as one rig has them.
 struct SimWorld {
-  sim::Scene scene;
+  SimFlight flight;
   sim::RayCaster world;
   std::vector<sim::StereoCamera> cameras;
   sim::PoseFaults faults;
@@ -70,18 +38,13 @@ struct SimWorld {
 /// one after the other.
 class SimSource final : public FrameSource {
  public:
-  SimSource(SourceInfo info, SimWorld sim, const SimOptions& options)
+  SimSource(SourceInfo info, SimWorld sim)
       : info_(std::move(info)),
         sim_(std::move(sim)),
-        start_(options.start),
-        shuffle_(options.shuffle),
-        tracker_({sim_.scene.tracker, sim_.scene.seed, sim_.scene.flight, sim_.scene.T_body_camera,
-                  options.start},
-                 sim_.faults, sim_.scene.seed),
-        rig_(options.rig) {
-    for (const RigCamera& camera : options.rig.cameras)
-      T_flown_camera_.push_back(sim_.scene.T_body_camera.inverse() * camera.T_body_camera);
-  }
+        tracker_({scene().tracker, scene().seed, scene().flight, scene().T_body_camera,
+                  sim_.flight.options.start},
+                 sim_.faults, scene().seed),
+        rig_(sim_.flight.options.rig) {}
 
   Expected<std::optional<Frame>> next() override {
     while (true) {
@@ -101,8 +64,9 @@ class SimSource final : public FrameSource {
     Stamp stamp;
     Stamp arrival;
   };
+  [[nodiscard]] const sim::Scene& scene() const { return sim_.flight.scene; }
   [[nodiscard]] Stamp tick(std::size_t n) const {
-    const double rate_hz = sim_.scene.camera.rate_hz * static_cast<double>(sim_.cameras.size());
+    const double rate_hz = scene().camera.rate_hz * static_cast<double>(sim_.cameras.size());
     return {std::llround(static_cast<double>(n) * 1e9 / rate_hz)};
   }
   [[nodiscard]] Shot shot(std::size_t n) const {
@@ -110,8 +74,8 @@ class SimSource final : public FrameSource {
     const std::size_t period = n / count;
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    if (shuffle_) {
-      std::mt19937_64 random(mix_bits(*shuffle_ + period));
+    if (const auto shuffle = sim_.flight.options.shuffle) {
+      std::mt19937_64 random(mix_bits(*shuffle + period));
       std::ranges::shuffle(order, random);
     }
     const std::size_t camera = order[n % count];
@@ -133,11 +97,8 @@ class SimSource final : public FrameSource {
   }
 
   void take_image(const Shot& shot) {
-    const Nanoseconds flown = start_ + Nanoseconds(shot.stamp.ns);
-    sim_.world.move_to(flown);
-    auto T_world_camera = sim_.scene.flight.camera_at(flown);
-    if (shot.camera > 0 || sim_.cameras.size() > 1)
-      T_world_camera = T_world_camera * T_flown_camera_[shot.camera];
+    sim_.world.move_to(sim_.flight.flown(shot.stamp));
+    const auto T_world_camera = sim_.flight.true_pose(shot.stamp, shot.camera);
     sim::StereoCamera& camera = sim_.cameras[shot.camera];
     rig_.push(DepthFrame{shot.stamp, camera.capture(sim_.world, T_world_camera, shot.number),
                          camera.intrinsics(), to<std::uint8_t>(shot.camera)});
@@ -159,9 +120,6 @@ class SimSource final : public FrameSource {
 
   SourceInfo info_;
   SimWorld sim_;
-  Nanoseconds start_;
-  std::optional<std::uint64_t> shuffle_;
-  std::vector<Transform<Camera, Camera>> T_flown_camera_;  // by camera: the scene's is flown
   sim::FaultyTracker tracker_;
   Rig rig_;
   std::size_t images_ = 0;
@@ -170,60 +128,52 @@ class SimSource final : public FrameSource {
 };
 
 /// Sets what goes wrong, if anything is asked to.
-Status apply_fault(const SimOptions& options, SimWorld& sim) {
+Status apply_fault(SimWorld& sim) {
+  const SimOptions& options = sim.flight.options;
   if (!options.fault) return Done{};
   auto fault = find_registered(sim::pose_faults(), *options.fault, "fault");
   if (!fault) return forward_error(std::move(fault));
-  fault->make(options.fault_at, sim.scene.tracker, sim.faults);
+  fault->make(options.fault_at, sim.flight.scene.tracker, sim.faults);
   return Done{};
 }
 
-Expected<SimWorld> build_world(sim::Scene scene, const SimOptions& options) {
-  auto world = sim::RayCaster::create(scene);
+Expected<SimWorld> build_world(SimFlight flight) {
+  auto world = sim::RayCaster::create(flight.scene);
   if (!world) return forward_error(std::move(world));
-  SimWorld sim{std::move(scene), std::move(*world), {}, {}};
-  for (std::size_t i = 0; i < options.rig.cameras.size(); ++i) {
-    sim::StereoOptions instrument = sim.scene.camera;
-    const double baseline_m = options.rig.cameras[i].baseline_m;
+  SimWorld sim{std::move(flight), std::move(*world), {}, {}};
+  const std::vector<RigCamera>& rig = sim.flight.options.rig.cameras;
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    sim::StereoOptions instrument = sim.flight.scene.camera;
+    const double baseline_m = rig[i].baseline_m;
     if (baseline_m > 0.0) instrument.baseline_m = baseline_m;
     // Cameras of one rig have different noise.
-    auto camera = sim::StereoCamera::create(instrument, sim.scene.seed + 0x9E37 * i);
+    auto camera = sim::StereoCamera::create(instrument, sim.flight.scene.seed + 0x9E37 * i);
     if (!camera) return forward_error(std::move(camera));
     sim.cameras.push_back(std::move(*camera));
   }
-  if (auto applied = apply_fault(options, sim); !applied) return forward_error(std::move(applied));
+  if (auto applied = apply_fault(sim); !applied) return forward_error(std::move(applied));
   return sim;
 }
 
 }  // namespace
 
 Expected<FrameSourcePtr> open_sim_source(std::string_view rest) {
-  auto address = parse_address(rest, "sim");
-  if (!address) return forward_error(std::move(address));
-  auto options = parse_sim_options(*address);
-  if (!options) return forward_error(std::move(options));
-  auto scene = sim::load_scene(address->place);
-  if (!scene) return forward_error(std::move(scene));
-  const Nanoseconds left = scene->flight.duration() - options->start;
-  if (left < Nanoseconds(0)) {
-    return fail(ErrorCode::kUsage, "sim", "start lies behind the end of the flight",
-                fmt::format("the flight takes {:.1f} s", seconds(scene->flight.duration())));
-  }
-  scene->seed = options->seed.value_or(scene->seed);
-  if (!options->has_noise) make_ideal(*scene);
-  if (!options->rig_file) place_cameras(*scene, options->cameras, options->rig);
-
-  const std::size_t cameras = options->rig.cameras.size();
+  auto flight = read_sim_flight(rest);
+  if (!flight) return forward_error(std::move(flight));
+  const sim::Scene& scene = flight->scene;
+  RigOptions& rig = flight->options.rig;
   // Within a period the images of several cameras may arrive in any order.
-  options->rig.reorder_window = std::max(
-      options->rig.reorder_window, Nanoseconds(std::llround(1.001e9 / scene->camera.rate_hz)));
-  const auto rounds = static_cast<std::size_t>(seconds(left) * scene->camera.rate_hz + 1e-6) + 1;
-  const std::size_t images = rounds * cameras;
+  rig.reorder_window =
+      std::max(rig.reorder_window, Nanoseconds(std::llround(1.001e9 / scene.camera.rate_hz)));
+  const Nanoseconds left = scene.flight.duration() - flight->options.start;
+  const auto rounds = static_cast<std::size_t>(seconds(left) * scene.camera.rate_hz + 1e-6) + 1;
+  const std::size_t images = rounds * rig.cameras.size();
   SourceInfo info{"sim:" + std::string(rest), "+y",
-                  std::min(images, options->frames.value_or(images)), scene->camera.baseline_m};
-  auto sim = build_world(std::move(*scene), *options);
+                  std::min(images, flight->options.frames.value_or(images)),
+                  scene.camera.baseline_m};
+  auto sim = build_world(std::move(*flight));
   if (!sim) return forward_error(std::move(sim));
-  return std::make_unique<SimSource>(std::move(info), std::move(*sim), *options);
+  return std::make_unique<SimSource>(std::move(info), std::move(*sim));
 }
 
 }  // namespace swiftlet

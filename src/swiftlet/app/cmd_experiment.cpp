@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "swiftlet/app/command.hpp"
+#include "swiftlet/app/experiment.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+struct ExperimentOptions {
+  std::string name = "all";
+  std::string out = "experiments";
+  bool as_json = false;
+};
+
+Expected<ExperimentRun> run_one(const Registered<RunExperiment>& experiment) {
+  std::fputs(fmt::format("{}: {}\n", experiment.name, experiment.summary).c_str(), stderr);
+  const auto start = std::chrono::steady_clock::now();
+  auto result = experiment.make();
+  if (!result) return forward_error(std::move(result));
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  return ExperimentRun{std::string(experiment.name), std::string(experiment.summary),
+                       std::move(*result), took.count()};
+}
+
+void print(const std::vector<ExperimentRun>& runs, const ExperimentOptions& options) {
+  if (options.as_json) {
+    fmt::print("{}\n", experiments_json(runs).dump(2));
+    return;
+  }
+  for (const ExperimentRun& run : runs) {
+    fmt::print("{} ({:.1f} s)\n", run.name, run.seconds);
+    for (const Check& check : run.result.checks) {
+      fmt::print("  {}  {}: {} (expected: {})\n", check.is_passed ? "passed" : "FAILED", check.what,
+                 check.got, check.expected);
+    }
+  }
+  fmt::print("report: {}\n", (std::filesystem::path(options.out) / "report.html").string());
+}
+
+Faults experiment(const ExperimentOptions& options) {
+  std::error_code refused;
+  std::filesystem::create_directories(options.out, refused);
+  if (refused) {
+    return {{ErrorCode::kIo, options.out, "the folder cannot be made: " + refused.message(),
+             "choose another with -o"}};
+  }
+  std::vector<ExperimentRun> runs;
+  for (const auto& known : experiments()) {
+    if (options.name != "all" && options.name != known.name) continue;
+    auto run = run_one(known);
+    if (!run) return fault_of(std::move(run));
+    runs.push_back(std::move(*run));
+  }
+  if (runs.empty()) return fault_of(find_registered(experiments(), options.name, "experiment"));
+  const auto has_figures = write_report(runs, options.out);
+  if (!has_figures) return {has_figures.error()};
+  if (!*has_figures)
+    std::fputs("figures are not drawn: install gnuplot (Debian: gnuplot-nox)\n", stderr);
+  print(runs, options);
+  Faults faults;
+  for (const ExperimentRun& run : runs) {
+    if (!run.result.is_passed())
+      faults.push_back({ErrorCode::kCorruptInput, run.name,
+                        "a result of the thesis was not reproduced", "see the report"});
+  }
+  return faults;
+}
+
+}  // namespace
+
+Action declare_experiment(CLI::App& parser) {
+  auto o = std::make_shared<ExperimentOptions>();
+  parser.add_option("NAME", o->name, "one of 'swiftlet list experiments', or all")
+      ->type_name("")
+      ->capture_default_str();
+  parser.add_option("-o,--out", o->out, "folder for report.html, .csv and .svg")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  parser.add_flag("--json", o->as_json, "the results as one JSON object, for machines");
+  parser.footer(
+      "Examples:\n"
+      "  swiftlet experiment all -o experiments\n"
+      "  swiftlet experiment large_box --json\n"
+      "Repeats the experiments of the thesis on the simulated rig and says of each whether its\n"
+      "result was reproduced (exit code 1 if one was not). The report is one page that needs no\n"
+      "network; gnuplot draws its figures.");
+  return [o] { return experiment(*o); };
+}
+
+}  // namespace swiftlet::app

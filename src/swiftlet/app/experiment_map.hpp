@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <string>
+
+#include "swiftlet/app/experiment.hpp"
+#include "swiftlet/pipeline/mapper.hpp"
+
+namespace swiftlet::app {
+
+/// Maps the first `frames` frames of a source. Errors: those of the source and of Mapper::create().
+[[nodiscard]] Expected<Mapper> map_of(const std::string& address, const MapperConfig& config,
+                                      std::size_t frames);
+
+/// The cells of a map in the layer of height z, between two corners, as a figure.
+struct Layer {
+  VoxelIndex first, last;
+};
+[[nodiscard]] Figure layer_figure(const Mapper& mapper, const Layer& layer, std::string name,
+                                  std::string title);
+
+}  // namespace swiftlet::app

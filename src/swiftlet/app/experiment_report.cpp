@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "swiftlet/app/bench_report.hpp"
+#include "swiftlet/app/experiment.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+/// Self-contained: no script, no font, no picture from elsewhere; light and dark, narrow and wide.
+constexpr const char* kHead = R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>Swiftlet: experiments</title>
+<style>
+:root { --paper: #fff; --ink: #1a1d21; --soft: #5b6470; --line: #d9dee4; --card: #f6f8fa;
+  --good: #116329; --bad: #a40e26; }
+@media (prefers-color-scheme: dark) { :root { --paper: #12161b; --ink: #e6e9ed; --soft: #9aa4b0;
+  --line: #2d343c; --card: #1a2027; --good: #57c878; --bad: #ff8182; } }
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 62rem; padding: 2rem 1.2rem 4rem; background: var(--paper);
+  color: var(--ink); font: 16px/1.55 system-ui, sans-serif; }
+h1 { font-size: 1.7rem; margin: 0; } h2 { font-size: 1.2rem; margin: 3rem 0 .2rem; }
+p { margin: .3rem 0 1rem; color: var(--soft); }
+.table { overflow-x: auto; } table { border-collapse: collapse; width: 100%; }
+th, td { text-align: left; vertical-align: top; padding: .45rem .9rem .45rem 0;
+  border-bottom: 1px solid var(--line); }
+th { font-weight: 600; color: var(--soft); font-size: .85rem; }
+td.verdict { white-space: nowrap; font-weight: 600; }
+.passed { color: var(--good); } .failed { color: var(--bad); }
+figure { margin: 1.4rem 0 0; padding: .8rem; background: var(--card); border-radius: .5rem;
+  border: 1px solid var(--line); }
+figure svg { display: block; width: 100%; height: auto; border-radius: .3rem; }
+figcaption { font-size: .85rem; color: var(--soft); margin-top: .4rem; }
+a { color: inherit; }
+@media (max-width: 34rem) { body { font-size: 15px; } figure { padding: .3rem; } }
+</style></head><body>
+)";
+
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else if (c == '&')
+      safe += "&amp;";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+std::string verdict(bool is_passed) {
+  return is_passed ? R"(<td class="verdict passed">&#10003; passed</td>)"
+                   : R"(<td class="verdict failed">&#10007; failed</td>)";
+}
+
+std::string overview(std::span<const ExperimentRun> runs) {
+  std::string html =
+      R"(<div class="table"><table><tr><th>experiment</th><th>what it shows</th><th></th><th>took</th></tr>)";
+  for (const ExperimentRun& run : runs) {
+    html += fmt::format(
+        R"(<tr><td><a href="#{0}">{0}</a></td><td>{1}</td>{2}<td class="verdict">{3:.1f} s</td></tr>)",
+        run.name, escaped(run.summary), verdict(run.result.is_passed()), run.seconds);
+  }
+  return html + "</table></div>\n";
+}
+
+std::string checks_table(const ExperimentResult& result) {
+  std::string html =
+      R"(<div class="table"><table><tr><th>result</th><th>expected</th><th>got</th><th></th></tr>)";
+  for (const Check& check : result.checks) {
+    html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>{}</tr>", escaped(check.what),
+                        escaped(check.expected), escaped(check.got), verdict(check.is_passed));
+  }
+  return html + "</table></div>\n";
+}
+
+}  // namespace
+
+Expected<bool> write_report(std::span<const ExperimentRun> runs, const std::string& folder) {
+  const auto passed =
+      std::ranges::count_if(runs, [](const ExperimentRun& r) { return r.result.is_passed(); });
+  const Machine machine = this_machine();
+  std::string html = kHead;
+  html += fmt::format(
+      "<h1>Experiments of the thesis</h1>\n<p>{} of {} reproduced, on the simulated rig; swiftlet "
+      "{}, {}, {} cores</p>\n",
+      passed, runs.size(), machine.swiftlet, escaped(machine.cpu), machine.cores);
+  html += overview(runs);
+  bool has_figures = true;
+  for (const ExperimentRun& run : runs) {
+    html += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n", run.name, escaped(run.summary));
+    html += checks_table(run.result);
+    for (const Figure& figure : run.result.figures) {
+      auto svg = draw_figure(figure, folder);
+      if (!svg) return forward_error(std::move(svg));
+      has_figures = has_figures && !svg->empty();
+      html += fmt::format(
+          "<figure>{}<figcaption>{} (numbers: {}.csv)</figcaption></figure>\n",
+          svg->empty() ? "Not drawn: install gnuplot and run the experiment again." : *svg,
+          escaped(figure.title), figure.name);
+    }
+  }
+  html += "</body></html>\n";
+  const std::string path = (std::filesystem::path(folder) / "report.html").string();
+  std::ofstream file(path, std::ios::binary);
+  file << html;
+  file.flush();
+  if (!file) return fail(ErrorCode::kIo, path, "the report cannot be written");
+  return has_figures;
+}
+
+nlohmann::ordered_json experiments_json(std::span<const ExperimentRun> runs) {
+  auto all = nlohmann::ordered_json::array();
+  for (const ExperimentRun& run : runs) {
+    for (const Check& check : run.result.checks) {
+      all.push_back({{"name", run.name + ": " + check.what},
+                     {"passed", check.is_passed},
+                     {"expected", check.expected},
+                     {"got", check.got}});
+    }
+  }
+  return {{"experiments", std::move(all)}};
+}
+
+}  // namespace swiftlet::app

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "swiftlet/app/bench_workload.hpp"
+#include "swiftlet/app/progress.hpp"
+#include "swiftlet/app/score_job.hpp"
+#include "swiftlet/eval/leave_out.hpp"
+#include "swiftlet/source/sources.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+constexpr int kStride_px = 4;
+
+eval::ScoreValue value_of_share(const char* name, double value, bool higher_is_better,
+                                std::size_t of) {
+  return {name, value, eval::Unit::kShare, higher_is_better, of};
+}
+
+}  // namespace
+
+Expected<ScoreReport> score_recording(const ScoreJob& job) {
+  auto source = open_source(job.source);
+  if (!source) return forward_error(std::move(source));
+  auto entrants = make_entrants(job);
+  if (!entrants) return forward_error(std::move(entrants));
+  ScoreReport report{.source = job.source, .voxel_m = job.config.map.voxel_m, .maps = {}};
+  std::vector<eval::SightLine> left_out;
+  std::optional<Stamp> first;
+  Progress progress((*source)->info().frame_count);
+  for (;;) {
+    auto frame = (*source)->next();
+    if (!frame) return forward_error(std::move(frame));
+    if (!*frame) break;
+    if (eval::is_left_out(report.frames++)) {
+      eval::append_readings(**frame, job.config.depth, kStride_px, left_out);
+    } else {
+      for (Entrant& entrant : *entrants) entrant.map->fuse(**frame);
+    }
+    if (!first) first = (*frame)->stamp;
+    report.flight_s = seconds((*frame)->stamp - *first);
+    progress.update(images_seen((*source)->tally()));
+  }
+  progress.finish();
+  if (left_out.empty()) {
+    return fail(ErrorCode::kCorruptInput, job.source, "there is no reading to predict",
+                "every fifth frame is left out: give a recording of five frames or more");
+  }
+  for (const Entrant& entrant : *entrants) report.maps.push_back(entrant.name);
+  for (std::size_t i = 0; i < entrants->size(); ++i) {
+    eval::Claims claims(eval::box_around(left_out, report.voxel_m), Occupancy::kUnknown);
+    (*entrants)[i].map->read_claims(claims);
+    const eval::Consistency c = eval::consistency_of(claims, left_out, report.voxel_m);
+    add_value(report, i, "leave_out",
+              value_of_share("left-out readings that end within 1 cell of an occupied one",
+                             c.met_share(), true, c.points));
+    add_value(report, i, "leave_out",
+              value_of_share("left-out rays blocked more than 2 cells before", c.blocked_share(),
+                             false, c.points));
+  }
+  return report;
+}
+
+}  // namespace swiftlet::app
