@@ -21,7 +21,7 @@ namespace {
 struct CellLanes {
   FloatLanes world[3], camera[3];
 
-  HWY_INLINE CellLanes() {}  // see FloatLanes
+  HWY_INLINE CellLanes() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
 };
 
 /// Cells so many cells along x, y, z from the first of a cube.

@@ -29,7 +29,7 @@ void DepthPyramid::lay_out(int width, int height) {
   std::size_t tiles = 0;
   for (int shift = kTileShift;; ++shift) {
     const auto count = [shift](int pixels) {
-      return static_cast<std::size_t>(((pixels - 1) >> shift) + 1);
+      return static_cast<std::size_t>((pixels - 1) >> shift) + 1;
     };
     const Level level{count(width), count(height), tiles};
     levels_.push_back(level);

@@ -25,7 +25,7 @@ struct Parts {
   FloatLanes count[4], mean[4], variance[4];
   FloatLanes voice[4], narrow[4];  // mean [m] and sqrt(sigma / deviation)
 
-  HWY_INLINE Parts() {}  // see FloatLanes
+  HWY_INLINE Parts() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
 };
 
 /// Scatter that noise alone makes: in deviations of a reading, of all but odd tiles.

@@ -23,7 +23,7 @@ struct Sample {
   hn::Mask<Floats> is_inside;  // the image
   IntLanes tile;               // 0 outside
 
-  HWY_INLINE Sample() {}  // see FloatLanes
+  HWY_INLINE Sample() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
 };
 
 HWY_INLINE Sample sample_at(const FrameInView& frame, const ReadingTiles& tiles,
