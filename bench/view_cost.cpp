@@ -18,6 +18,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <thread>
 #include <vector>
@@ -77,12 +78,20 @@ class Client {
   std::thread reader_;
 };
 
+/// What others do on a busy machine does not count here.
+Nanoseconds thread_cpu_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return std::chrono::seconds(now.tv_sec) + Nanoseconds(now.tv_nsec);
+}
+
 struct Setting {
   std::string name;
   std::size_t clients = 0;
   bool has_station = true;
-  std::vector<Nanoseconds> times{};
-  std::size_t bytes = 0;  // that the clients took, all together
+  std::vector<Nanoseconds> times{};      // by the clock on the wall
+  std::vector<Nanoseconds> cpu_times{};  // that the mapping thread itself ran
+  std::size_t bytes = 0;                 // that the clients took, all together
   double elapsed_s = 0.0;
 };
 
@@ -109,9 +118,12 @@ void fly(const app::Workload& workload, const MapperConfig& config, Setting& set
     due += kFramePeriod;
     arrived = workload.frames[i];
     const auto begin = Clock::now();
+    const Nanoseconds cpu_begin = thread_cpu_time();
     const MapUpdate update = mapper->integrate(arrived);
     if (watch) watch->frame_done(arrived, update, *mapper);
-    if (i >= workload.warm_up) setting.times.push_back(Clock::now() - begin);
+    if (i < workload.warm_up) continue;
+    setting.cpu_times.push_back(thread_cpu_time() - cpu_begin);
+    setting.times.push_back(Clock::now() - begin);
   }
   setting.elapsed_s += std::chrono::duration<double>(Clock::now() - start).count();
   for (const auto& client : clients) setting.bytes += client->bytes();
@@ -153,16 +165,24 @@ int main(int argc, char** argv) {
   }
   fmt::print(stderr, "\n");
   fmt::print("{}{}", app::machine_text(app::this_machine()), app::workload_text(*workload));
-  fmt::print("\n{:<24} {:>7} {:>10} {:>8} {:>8} {:>8} {:>11}\n", "setting", "frames", "median_ms",
-             "vs none", "p99_ms", "vs none", "kB/s sent");
-  const double base_median = milliseconds(app::percentile(settings[0].times, 0.5));
-  const double base_p99 = milliseconds(app::percentile(settings[0].times, 0.99));
+  fmt::print("\n{:<24} {:>7}", "setting", "frames");
+  for (const char* clock : {"wall", "cpu"}) {
+    fmt::print(" {:>11} {:>8} {:>8} {:>8}", fmt::format("{} median", clock), "vs none", "p99",
+               "vs none");
+  }
+  fmt::print(" {:>10}\n", "kB/s sent");
   for (const Setting& s : settings) {
-    const double median = milliseconds(app::percentile(s.times, 0.5));
-    const double p99 = milliseconds(app::percentile(s.times, 0.99));
-    fmt::print("{:<24} {:>7} {:>10.3f} {:>+7.1f}% {:>8.3f} {:>+7.1f}% {:>11.1f}\n", s.name,
-               s.times.size(), median, 100.0 * (median / base_median - 1.0), p99,
-               100.0 * (p99 / base_p99 - 1.0), 1e-3 * static_cast<double>(s.bytes) / s.elapsed_s);
+    fmt::print("{:<24} {:>7}", s.name, s.times.size());
+    const Setting& none = settings.front();
+    for (const auto& [times, base] :
+         {std::pair{&s.times, &none.times}, {&s.cpu_times, &none.cpu_times}}) {
+      for (const double share : {0.5, 0.99}) {
+        const double ms = milliseconds(app::percentile(*times, share));
+        const double base_ms = milliseconds(app::percentile(*base, share));
+        fmt::print(" {:>{}.3f} {:>+7.1f}%", ms, share < 0.9 ? 11 : 8, 100.0 * (ms / base_ms - 1.0));
+      }
+    }
+    fmt::print(" {:>10.1f}\n", 1e-3 * static_cast<double>(s.bytes) / s.elapsed_s);
   }
   return 0;
 }
