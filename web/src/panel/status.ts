@@ -76,6 +76,11 @@ export class StatusPanel {
     const out = element('sync');
     const pending = this.world.status?.pending ?? 0;
     const isSealed = this.world.sealedFrame >= 0 && pending === 0;
+    if (this.link.state !== 'open') {
+      out.dataset.sync = 'behind';
+      out.textContent = this.world.hello ? `as of frame ${grouped(this.world.status?.frame ?? 0)}` : '–';
+      return;
+    }
     out.dataset.sync = isSealed ? 'equal' : 'behind';
     out.textContent = isSealed ? 'equals the mapper’s' : `${grouped(pending)} blocks behind`;
   }

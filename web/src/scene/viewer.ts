@@ -121,8 +121,10 @@ export class Viewer {
   draw(now_ms: number): void {
     const dt_s = Math.min(0.5, (now_ms - this.#last_ms) / 1000);
     this.#last_ms = now_ms;
-    // Blocks are joined ten times a second at most: the eye sees no more of a growing map.
-    if (this.world.changed.size > 0 && now_ms - this.#lastJoin_ms > 100) {
+    // Blocks are joined ten times a second at most: the eye sees no more of a growing map. While the map has not come
+    // whole for the first time, taking it is worth more than drawing its parts.
+    const pause_ms = this.world.sealedFrame < 0 ? 400 : 100;
+    if (this.world.changed.size > 0 && now_ms - this.#lastJoin_ms > pause_ms) {
       this.#lastJoin_ms = now_ms;
       this.#takeBlocks();
     }
