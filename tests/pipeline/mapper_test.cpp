@@ -67,11 +67,12 @@ TEST(Mapper, refuses_frames_it_cannot_use_and_leaves_the_map_alone) {
 // Warm-up: one tour of what is to come, so that every buffer has met its largest frame.
 TEST(Mapper, allocates_nothing_after_warm_up_even_when_the_window_moves_and_readers_follow) {
   Random random;
-  for (const auto& integrator : integrators()) {
+  const auto expect_none = [&](std::string_view integrator, std::string_view fusion) {
     MapperConfig config;
     config.depth.downsample = 2;
     config.map.size_m = {6, 6, 4};
-    config.integrate.integrator = integrator.name;
+    config.integrate.integrator = integrator;
+    config.integrate.fusion = fusion;
     Mapper mapper = new_mapper(config);
     const MapReader reader = mapper.reader();
     std::vector<Frame> frames;
@@ -87,9 +88,12 @@ TEST(Mapper, allocates_nothing_after_warm_up_even_when_the_window_moves_and_read
     const test::AllocationCount allocations;
     for (const Frame& frame : frames) shifts += mapper.integrate(frame).shift.moved ? 1 : 0;
     const std::size_t made = allocations.so_far();
-    EXPECT_EQ(made, 0U) << integrator.name;
+    EXPECT_EQ(made, 0U) << integrator << ", " << fusion;
     EXPECT_GT(shifts, 5U);
     EXPECT_TRUE(reader.latest());
+  };
+  for (const auto& integrator : integrators()) {
+    for (const auto fusion : {kThesisFusion, kSharpFusion}) expect_none(integrator.name, fusion);
   }
 }
 

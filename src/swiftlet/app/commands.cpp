@@ -16,6 +16,7 @@
   X(bench, "measure how fast maps are built, beside OctoMap") \
   X(score, "measure how right maps are, beside OctoMap")      \
   X(experiment, "repeat the experiments of the thesis")       \
+  X(characterize, "measure the noise of a depth camera")      \
   X(check, "look for faults in map files and config files")   \
   X(list, "list every source, method, format, view, parameter")
 

@@ -9,42 +9,46 @@
 namespace swiftlet {
 namespace {
 
-/// What a pixel is compared with.
-class Ridges {
- public:
-  Ridges(const DepthView& view, double voxel_m)
-      : raw_(view.depth.raw),
-        half_width_(0.5 * voxel_m * view.intrinsics.fx() / double{view.depth.unit_m} /
-                    view.depth.ratio),
-        step_(1.5 * voxel_m / double{view.depth.unit_m}),
-        step_per_square_(6.0 * double{view.depth.noise_per_m} * double{view.depth.noise_left} *
-                         double{view.depth.unit_m}) {}
+constexpr std::size_t kDepths = 65536;
 
-  [[nodiscard]] bool is_on_ridge(int u, int v, int z) const {
-    const auto reach = std::clamp(static_cast<int>(half_width_ / z) + 1, 2, 64);
-    const auto step = static_cast<int>(std::max(step_, step_per_square_ * z * z));
-    return rises_above(at(u - reach, v), at(u + reach, v), z + step) ||
-           rises_above(at(u, v - reach), at(u, v + reach), z + step);
-  }
+/// Something farther on one side at least, nothing near on the other: beside a near object a stereo
+/// camera is blind on one side.
+bool rises_above(int a, int b, int far) {
+  return (a == 0 || a > far) && (b == 0 || b > far) && a + b != 0;
+}
 
- private:
-  /// Something farther on one side at least, nothing near on the other: beside a near object a
-  /// stereo camera is blind on one side.
-  [[nodiscard]] static bool rises_above(int a, int b, int far) {
-    return (a == 0 || a > far) && (b == 0 || b > far) && a + b != 0;
-  }
-  [[nodiscard]] int at(int u, int v) const {
-    const bool is_inside = u >= 0 && v >= 0 && u < raw_.width() && v < raw_.height();
-    return is_inside ? raw_.at(u, v) : 0;
-  }
+/// 0, no reading, outside of the image.
+int reading_at(const Image<std::uint16_t>& raw, int u, int v) {
+  const bool is_inside = u >= 0 && v >= 0 && u < raw.width() && v < raw.height();
+  return is_inside ? raw.at(u, v) : 0;
+}
 
-  const Image<std::uint16_t>& raw_;
-  double half_width_;       // half a cell, in pixels times device units
-  double step_;             // how much farther the background is, in device units
-  double step_per_square_;  // or six deviations of the reading, over its square
-};
+bool is_on_ridge(const Image<std::uint16_t>& raw, int u, int v, const ThinHits::Limits& limits) {
+  const int reach = limits.reach_px, far = limits.far;
+  return rises_above(reading_at(raw, u - reach, v), reading_at(raw, u + reach, v), far) ||
+         rises_above(reading_at(raw, u, v - reach), reading_at(raw, u, v + reach), far);
+}
 
 }  // namespace
+
+ThinHits::ThinHits() : limits_(kDepths), slots_(kSlots) { touched_.reserve(kMostCells); }
+
+void ThinHits::look_up_limits(const DepthView& view, double voxel_m) {
+  const ConditionedDepth& depth = view.depth;
+  const double unit_m = depth.unit_m;
+  // Half a cell in pixels times device units; 1.5 cells; six deviations over the square of depth.
+  const std::array wanted{0.5 * voxel_m * view.intrinsics.fx() / unit_m / depth.ratio,
+                          1.5 * voxel_m / unit_m,
+                          6.0 * double{depth.noise_per_m} * double{depth.noise_left} * unit_m};
+  if (wanted == limits_of_) return;
+  limits_of_ = wanted;
+  for (std::size_t i = 1; i < kDepths; ++i) {
+    const auto z = static_cast<double>(i);
+    const double reach = std::clamp(std::floor(wanted[0] / z) + 1.0, 2.0, 64.0);
+    const double far = std::min(z + std::max(wanted[1], wanted[2] * z * z), 65535.0);
+    limits_[i] = {static_cast<std::uint16_t>(reach), static_cast<std::uint16_t>(far)};
+  }
+}
 
 void ThinHits::add(const VoxelIndex& cell, const RollingMap& map) {
   std::size_t place = VoxelHash{}(cell) & (kSlots - 1);
@@ -62,12 +66,12 @@ void ThinHits::add(const VoxelIndex& cell, const RollingMap& map) {
 void ThinHits::collect(const DepthView& view, const RollingMap& map) {
   ++frame_;
   touched_.clear();
-  const Ridges ridges(view, map.voxel_m());
+  look_up_limits(view, map.voxel_m());
   const ConditionedDepth& depth = view.depth;
   for (int v = 0; v < depth.raw.height(); ++v) {
     for (int u = 0; u < depth.raw.width(); ++u) {
-      const int z = depth.raw.at(u, v);
-      if (z == 0 || !ridges.is_on_ridge(u, v, z)) continue;
+      const std::uint16_t z = depth.raw.at(u, v);
+      if (z == 0 || !is_on_ridge(depth.raw, u, v, limits_[z])) continue;
       const PixelOrigin pixel = depth.origin_of(u, v);
       const double z_m = double{depth.unit_m} * z - double{depth.shift_m};
       const Eigen::Vector3d p_world =

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,12 +25,18 @@ class ThinHits {
   static constexpr int kLeastHits = 3;
   static constexpr std::int32_t kGain = 45;
 
-  ThinHits() : slots_(kSlots) { touched_.reserve(kMostCells); }
+  ThinHits();
 
   /// Before the integrator: finds the ridges of a frame.
   void collect(const DepthView& view, const RollingMap& map);
   /// After it: raises their cells. Returns how many.
   std::size_t protect(RollingMap& map);
+
+  /// What a reading of some depth is compared with.
+  struct Limits {
+    std::uint16_t reach_px;  ///< half a cell to the side
+    std::uint16_t far;       ///< what is clearly behind it, in device units
+  };
 
  private:
   static constexpr std::size_t kSlots = 1U << 15;  // a power of two
@@ -41,7 +48,10 @@ class ThinHits {
     LogOdds before = kUnknownCell;
   };
   void add(const VoxelIndex& cell, const RollingMap& map);
+  void look_up_limits(const DepthView& view, double voxel_m);
 
+  std::vector<Limits> limits_;          // of every depth, for the numbers below
+  std::array<double, 3> limits_of_{};   // changes only with the camera
   std::vector<Slot> slots_;             // open addressing
   std::vector<std::uint32_t> touched_;  // slots of this frame, in the order of the pixels
   std::uint32_t frame_ = 0;
