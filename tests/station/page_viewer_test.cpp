@@ -18,8 +18,8 @@ using Time = Viewer::Time;
 const OccupancyThresholds kThresholds{};
 
 /// A viewer, its client, and a clock that only the test moves.
-struct Pair {
-  explicit Pair(const MapWatch& watch) : viewer(make_page_viewer(watch)) {}
+struct Conversation {
+  explicit Conversation(const MapWatch& watch) : viewer(make_page_viewer(watch)) {}
 
   /// The next message, whether it arrives or not; false if there is none for now.
   bool exchange(bool arrives = true) {
@@ -54,7 +54,7 @@ TEST(PageViewer, brings_a_client_to_exactly_the_map_and_seals_it) {
   test::Random random;
   RandomFlight flight(random);
   MapWatch watch(flight.feed);
-  Pair pair(watch);
+  Conversation pair(watch);
   for (int i = 0; i < 80; ++i) {
     flight.step();
     pair.viewer->saw(watch.look());
@@ -71,7 +71,7 @@ TEST(PageViewer, heals_whatever_is_lost_on_the_way) {
   test::Random random;
   RandomFlight flight(random);
   MapWatch watch(flight.feed);
-  Pair pair(watch);
+  Conversation pair(watch);
   for (int i = 0; i < 150; ++i) {
     flight.step();
     pair.viewer->saw(watch.look());
@@ -92,7 +92,7 @@ TEST(PageViewer, sends_everything_again_when_a_loss_is_too_long_ago) {
   test::Random random;
   RandomFlight flight(random);
   MapWatch watch(flight.feed);
-  Pair pair(watch);
+  Conversation pair(watch);
   flight.step();
   pair.viewer->saw(watch.look());
   pair.exchange_all();
@@ -115,7 +115,7 @@ TEST(PageViewer, keeps_to_the_bandwidth_and_still_completes_the_map) {
   for (int i = 0; i < 40; ++i) flight.step();
   MapWatch watch(flight.feed);
   const MapWatch::Look look = watch.look();
-  Pair pair(watch);
+  Conversation pair(watch);
   constexpr std::uint32_t kRate = 125'000;  // 1 Mbit/s
   pair.say({4, 0, 0, 0}, {kRate});
   pair.viewer->saw(look);
@@ -136,7 +136,7 @@ TEST(PageViewer, a_slow_client_gets_fewer_updates_and_never_an_older_map) {
   test::Random random;
   RandomFlight flight(random);
   MapWatch watch(flight.feed);
-  Pair pair(watch);
+  Conversation pair(watch);
   for (int i = 0; i < 200; ++i) {
     flight.step();
     pair.viewer->saw(watch.look());
@@ -169,7 +169,7 @@ TEST(PageViewer, sends_the_blocks_nearest_to_the_vehicle_first) {
   block.cells[0] = 200;
   for (std::int32_t i = -200; i <= 200; ++i) map.put({i, 0, 0}, block, 1);
   MapWatch watch(facts, std::move(map));
-  Pair pair(watch);
+  Conversation pair(watch);
   while (pair.client.blocks.empty()) ASSERT_TRUE(pair.exchange());
   EXPECT_EQ(pair.client.blocks.size(), ClientQueue::kMaxBlocksPerPacket);
   for (const auto& [index, cells] : pair.client.blocks) EXPECT_LE(std::abs(index.x), 32);
@@ -184,7 +184,7 @@ TEST(PageViewer, packs_blocks_that_lie_far_apart) {
     map.put({x, -x, x}, block, 1);
   }
   MapWatch watch(small_facts(), std::move(map));
-  Pair pair(watch);
+  Conversation pair(watch);
   pair.exchange_all();
   EXPECT_EQ(pair.digest(), watch.map().digest());
   EXPECT_EQ(pair.client.blocks.size(), 6U);
@@ -194,7 +194,7 @@ TEST(PageViewer, holds_and_steps) {
   test::Random random;
   RandomFlight flight(random);
   MapWatch watch(flight.feed);
-  Pair pair(watch);
+  Conversation pair(watch);
   const auto fly_on = [&] {
     flight.step();
     pair.viewer->saw(watch.look());

@@ -16,9 +16,9 @@ namespace swiftlet::station {
 /// to its size from behind the header of four bytes.
 class CdrWriter {
  public:
-  explicit CdrWriter(std::vector<std::uint8_t>& out) : out_(out), writer_(out) {
+  explicit CdrWriter(std::vector<std::uint8_t>& out)
+      : out_(out), writer_(out), start_(out.size() + 4) {
     writer_.u32(0x0100);  // 00 01: little endian; 00 00: no options
-    start_ = out.size();
   }
 
   void u8(std::uint8_t value) { writer_.u8(value); }
@@ -49,7 +49,7 @@ class CdrWriter {
 
   std::vector<std::uint8_t>& out_;
   ByteWriter writer_;
-  std::size_t start_ = 0;
+  std::size_t start_;
 };
 
 }  // namespace swiftlet::station
