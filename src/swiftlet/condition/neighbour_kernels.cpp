@@ -12,8 +12,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace swiftlet {
-namespace HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
+namespace swiftlet::HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -27,7 +26,7 @@ HWY_INLINE auto agrees(WordLanes a, WordLanes z, WordLanes tolerance) {
 
 /// Counts the readings of a square that agree with its middle, and adds up how much deeper they
 /// are, modulo 2^16.
-template <int kReach>
+template <int Reach>
 HWY_INLINE void gather(const NeighbourRow& row, int width) {
   constexpr Words w;
   const WordLanes one = hn::Set(w, 1);
@@ -35,9 +34,9 @@ HWY_INLINE void gather(const NeighbourRow& row, int width) {
     const WordLanes z = hn::LoadU(w, row.image->row(row.v) + u);
     const WordLanes tolerance = hn::LoadU(w, row.tolerance + u);
     WordLanes count = hn::Zero(w), sum = hn::Zero(w);
-    for (int dv = -kReach; dv <= kReach; ++dv) {
+    for (int dv = -Reach; dv <= Reach; ++dv) {
       const std::uint16_t* const neighbours = row.image->row(row.v + dv) + u;
-      for (int du = -kReach; du <= kReach; ++du) {
+      for (int du = -Reach; du <= Reach; ++du) {
         const WordLanes a = hn::LoadU(w, neighbours + du);
         const auto yes = agrees(a, z, tolerance);
         sum = hn::Add(sum, hn::IfThenElseZero(yes, hn::Sub(a, z)));
@@ -53,8 +52,7 @@ void gather_3(const NeighbourRow& row, int width) { gather<1>(row, width); }
 void gather_5(const NeighbourRow& row, int width) { gather<2>(row, width); }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace swiftlet
+}  // namespace swiftlet::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -77,7 +75,7 @@ NoiseTolerance noise_tolerance(float noise_per_m, float unit_m) {
 
 void NeighbourSums::take(const Image<std::uint16_t>& image) {
   image_.take(image);
-  const auto room = static_cast<std::size_t>(image.width() + BorderedImage::kSlack);
+  const std::size_t room = static_cast<std::size_t>(image.width()) + BorderedImage::kSlack;
   tolerance_.resize(room);
   count_.resize(room);
   sum_.resize(room);
@@ -103,8 +101,8 @@ void NeighbourSums::gather(int v, int reach, const NoiseTolerance& t) {
 }
 
 void BorderedImage::take(const Image<std::uint16_t>& image) {
-  stride_ = static_cast<std::size_t>(image.width() + 2 * kBorder + kSlack);
-  pixels_.assign(stride_ * static_cast<std::size_t>(image.height() + 2 * kBorder), 0);
+  stride_ = static_cast<std::size_t>(image.width()) + 2 * kBorder + kSlack;
+  pixels_.assign(stride_ * (static_cast<std::size_t>(image.height()) + 2 * kBorder), 0);
   for (int v = 0; v < image.height(); ++v) {
     std::ranges::copy(image.row(v),
                       &pixels_[static_cast<std::size_t>(v + kBorder) * stride_ + kBorder]);

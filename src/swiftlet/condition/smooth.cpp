@@ -2,6 +2,7 @@
 // Copyright the Swiftlet authors
 
 #include <algorithm>
+#include <cmath>
 
 #include "swiftlet/condition/depth_step.hpp"
 #include "swiftlet/condition/neighbour_kernels.hpp"
@@ -28,7 +29,7 @@ class Smooth final : public DepthStep {
         std::uint16_t& d = row[static_cast<std::size_t>(u)];
         const float deeper = static_cast<float>(neighbours_.sum(u)) /
                              static_cast<float>(std::max(neighbours_.count(u), 1));
-        const auto mean = static_cast<int>(static_cast<float>(d) + deeper + 0.5F);
+        const long mean = std::lround(static_cast<float>(d) + deeper);
         d = static_cast<std::uint16_t>(d == 0 ? 0 : mean);
       }
     }

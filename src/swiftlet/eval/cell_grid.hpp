@@ -63,7 +63,7 @@ class CellGrid {
 
  private:
   static std::size_t extent(std::int32_t first, std::int32_t last) {
-    return static_cast<std::size_t>(last - first + 1);
+    return static_cast<std::size_t>(last - first) + 1;
   }
   [[nodiscard]] std::size_t place_of(const VoxelIndex& v) const {
     const auto x = static_cast<std::size_t>(v.x - box_.first.x);

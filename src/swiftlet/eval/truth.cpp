@@ -96,7 +96,7 @@ void Truth::mark_swept(const VoxelIndex& cell) {
 std::string Truth::name_at(const VoxelIndex& v) const {
   if (!holds_matter(v)) return "nothing";
   const sim::Object& object = objects_[cells_.at(v).object];
-  const std::string name = object.name.empty() ? "object without a name" : object.name;
+  std::string name = object.name.empty() ? "object without a name" : object.name;
   const auto* cylinder = std::get_if<sim::Cylinder>(&object.shape);
   if (cylinder == nullptr || cylinder->diameter_m >= voxel_m_) return name;
   return fmt::format("{} ({:.0f} mm thin)", name, 1e3 * cylinder->diameter_m);

@@ -44,7 +44,7 @@ class Truth {
   [[nodiscard]] const CellGrid<CellTruth>& cells() const { return cells_; }
   [[nodiscard]] const std::vector<sim::Object>& objects() const { return objects_; }
   /// The name of what a cell holds.
-  [[nodiscard]] std::string name_at(const VoxelIndex& cell) const;
+  [[nodiscard]] std::string name_at(const VoxelIndex& v) const;
 
   /// Any matter at all; nothing outside the box.
   [[nodiscard]] bool holds_matter(const VoxelIndex& v) const {
