@@ -101,8 +101,9 @@ void NeighbourSums::gather(int v, int reach, const NoiseTolerance& t) {
 }
 
 void BorderedImage::take(const Image<std::uint16_t>& image) {
-  stride_ = static_cast<std::size_t>(image.width()) + 2 * kBorder + kSlack;
-  pixels_.assign(stride_ * (static_cast<std::size_t>(image.height()) + 2 * kBorder), 0);
+  constexpr std::size_t kAround = 2U * kBorder;
+  stride_ = static_cast<std::size_t>(image.width()) + kAround + kSlack;
+  pixels_.assign(stride_ * (static_cast<std::size_t>(image.height()) + kAround), 0);
   for (int v = 0; v < image.height(); ++v) {
     std::ranges::copy(image.row(v),
                       &pixels_[static_cast<std::size_t>(v + kBorder) * stride_ + kBorder]);

@@ -46,7 +46,7 @@ void make_ideal(sim::Scene& scene) {
 }  // namespace
 
 Transform<World, Camera> SimFlight::true_pose(Stamp stamp, std::size_t camera) const {
-  const auto T_world_flown = scene.flight.camera_at(flown(stamp));
+  auto T_world_flown = scene.flight.camera_at(flown(stamp));
   if (camera == 0 && T_flown_camera.size() == 1) return T_world_flown;
   return T_world_flown * T_flown_camera[camera];
 }
