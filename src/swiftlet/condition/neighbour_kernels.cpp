@@ -101,7 +101,7 @@ void NeighbourSums::gather(int v, int reach, const NoiseTolerance& t) {
 }
 
 void BorderedImage::take(const Image<std::uint16_t>& image) {
-  constexpr std::size_t kAround = 2U * kBorder;
+  constexpr std::size_t kAround = std::size_t{2} * kBorder;
   stride_ = static_cast<std::size_t>(image.width()) + kAround + kSlack;
   pixels_.assign(stride_ * (static_cast<std::size_t>(image.height()) + kAround), 0);
   for (int v = 0; v < image.height(); ++v) {
