@@ -22,7 +22,7 @@ using ::testing::UnorderedElementsAre;
 using Names = std::vector<std::string>;
 
 constexpr double kVoxel_m = 0.1;
-constexpr VoxelBox kBox{{-4, -20, -4}, {26, 22, 20}};
+constexpr VoxelBox kScoredBox{{-4, -20, -4}, {26, 22, 20}};
 const Eigen::Vector3f kEye(0.05F, 0.05F, 0.85F);
 
 std::vector<sim::Object> corner() {
@@ -33,7 +33,7 @@ std::vector<sim::Object> corner() {
 
 /// Seen from kEye: all of both faces but what is behind the rod, and the rod.
 Truth make_truth() {
-  Truth truth(corner(), kVoxel_m, kBox);
+  Truth truth(corner(), kVoxel_m, kScoredBox);
   const auto see = [&](float x, float y, float z) {
     const Eigen::Vector3f point(x, y, z);
     const float t = (1.05F - kEye.x()) / (x - kEye.x());  // where it passes the rod
@@ -49,7 +49,7 @@ Truth make_truth() {
 }
 
 Claims perfect_claims(const Truth& truth) {
-  Claims claims(kBox, Occupancy::kUnknown);
+  Claims claims(kScoredBox, Occupancy::kUnknown);
   truth.cells().for_each([&](const VoxelIndex& v, const CellTruth& cell) {
     if (cell.holds == Holds::kSolid && cell.hits > 0) {
       claims.at(v) = Occupancy::kOccupied;
@@ -98,7 +98,7 @@ class Scores : public ::testing::Test {
 
   const Claims reference_ = perfect_claims(truth());
   Claims claims_ = reference_;
-  CellGrid<std::uint8_t> ever_{kBox, 0};
+  CellGrid<std::uint8_t> ever_{kScoredBox, 0};
   const std::map<std::string, double> perfect_ = values();
 
   const VoxelIndex wall_{20, -8, 8};   // of the front wall, in the middle of what is seen
