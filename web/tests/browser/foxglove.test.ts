@@ -66,6 +66,8 @@ describe.each(['foxglove.sdk.v1', 'foxglove.websocket.v1'])('a client that speak
     const needed = subprotocol === 'foxglove.sdk.v1' ? kTopics : kTopics.filter((t) => t !== '/camera/depth');
     const first = await listen(subprotocol, (newest) => needed.every((topic) => newest.has(topic)));
     await program.says(/frames +\d+ in/);
+    // The station looks at the map twenty times a second: the last look may be yet to come.
+    await new Promise((resolve) => setTimeout(resolve, 1000));
     const newest = await listen(subprotocol, (n) => needed.every((t) => t === '/camera/depth' || n.has(t)));
 
     const cloud = newest.get('/map/occupied')!;
