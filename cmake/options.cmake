@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright the Swiftlet authors
 
+# Several files of a target to one compiler run, for what is compiled more often than it is changed.
+function(swiftlet_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+  target_compile_options(${target} PRIVATE -Wno-shadow -Wno-subobject-linkage)  # true of files, not of their sum
+endfunction()
+
 # Everything a Swiftlet target is compiled with; nothing of it reaches a consumer.
 # -Wno-sign-conversion: clang's -Wconversion contains it, GCC's does not; the two shall agree.
 function(swiftlet_options target)
@@ -15,7 +21,7 @@ function(swiftlet_options target)
     target_compile_options(${target} PRIVATE -Wno-restrict)  # "text" + std::string is a false alarm: GCC bug 105651
   endif()
   if(CMAKE_UNITY_BUILD)
-    target_compile_options(${target} PRIVATE -Wno-shadow -Wno-subobject-linkage)  # true of files, not of their sum
+    swiftlet_compile_together(${target})
   endif()
   if(SWIFTLET_WERROR)
     target_compile_options(${target} PRIVATE -Werror)

@@ -24,6 +24,11 @@ class Score : public ::testing::Test {
   Ended swiftlet(const std::vector<std::string>& arguments) const {
     return run(arguments, folder_.path());
   }
+  Ended score_three_frames(const std::string& maps) const {
+    std::filesystem::create_directory(folder_ / "rec");
+    write_seven_scenes(folder_ / "rec");
+    return swiftlet({"score", "7scenes:rec", "--maps", maps});
+  }
   TempFolder folder_;
 };
 
@@ -86,17 +91,13 @@ TEST_F(Score, a_recording_is_judged_by_the_frames_that_were_left_out) {
 }
 
 TEST_F(Score, a_recording_of_four_frames_has_nothing_to_predict) {
-  std::filesystem::create_directory(folder_ / "rec");
-  write_seven_scenes(folder_ / "rec");
-  const Ended ended = swiftlet({"score", "7scenes:rec", "--maps", "rays"});
+  const Ended ended = score_three_frames("rays");
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(ended.err, HasSubstr("give a recording of five frames or more"));
 }
 
 TEST_F(Score, a_map_that_does_not_exist_is_a_wrong_usage) {
-  std::filesystem::create_directory(folder_ / "rec");
-  write_seven_scenes(folder_ / "rec");
-  const Ended ended = swiftlet({"score", "7scenes:rec", "--maps", "bonxai"});
+  const Ended ended = score_three_frames("bonxai");
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_THAT(ended.err, HasSubstr("unknown integrator 'bonxai'; known are: rays, projective"));
 }

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/config_file.hpp"
+#include "swiftlet/app/config_flags.hpp"
 #include "swiftlet/app/flight_watch.hpp"
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/mapping_session.hpp"
@@ -186,10 +186,7 @@ Action declare_map(CLI::App& parser) {
       ->capture_default_str();
   parser.add_flag("--overwrite", o->overwrite,
                   "replace the map; until the new one is saved it is FILE.bak");
-  parser.add_option("--config", o->config.file, "parameters, as a YAML file")->type_name("FILE");
-  parser.add_option("--set", o->config.settings, "one parameter, as in map.voxel_m=0.1")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  declare_config_flags(parser, o->config);
   parser
       .add_option(
           "--rays", o->rays,

@@ -8,7 +8,7 @@
 
 #include "swiftlet/app/bench_workload.hpp"
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/config_file.hpp"
+#include "swiftlet/app/config_flags.hpp"
 #include "swiftlet/app/score_job.hpp"
 #include "swiftlet/source/sources.hpp"
 
@@ -73,10 +73,7 @@ Action declare_score(CLI::App& parser) {
       ->check(positive)
       ->type_name("N")
       ->capture_default_str();
-  parser.add_option("--config", o->config.file, "parameters, as a YAML file")->type_name("FILE");
-  parser.add_option("--set", o->config.settings, "one parameter, as in map.voxel_m=0.1")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  declare_config_flags(parser, o->config);
   parser.add_flag("--json", o->as_json, "one JSON object with every cell, for machines");
   parser.footer(
       "Examples:\n"

@@ -3,18 +3,13 @@
 
 #include "swiftlet/app/loaded_map.hpp"
 
-#include <algorithm>
-
 namespace swiftlet::app {
 
 std::optional<VoxelBox> known_box(const LoadedMap& map) {
   std::optional<VoxelBox> box;
   map.for_each_known_cell([&](const VoxelIndex& v, Occupancy) {
     if (!box) box = VoxelBox{v, v};
-    box->first = {std::min(box->first.x, v.x), std::min(box->first.y, v.y),
-                  std::min(box->first.z, v.z)};
-    box->last = {std::max(box->last.x, v.x), std::max(box->last.y, v.y),
-                 std::max(box->last.z, v.z)};
+    box->include(v);
   });
   return box;
 }

@@ -27,10 +27,11 @@ Status MappingSession::begin_map(const MapperConfig& config) {
   return Done{};
 }
 
-void MappingSession::book(const MapUpdate& update) {
+void MappingSession::book(const Frame& frame, const MapUpdate& update) {
   ++summary_.verdicts[static_cast<std::size_t>(update.verdict)];
   if (update.verdict != FrameVerdict::kIntegrated) return;
   summary_.latency.add(update.times);
+  if (frame.seen_at) summary_.latency.add_age(HostTime::clock::now() - *frame.seen_at);
   summary_.late_frames += update.tally.blocks_left > 0 ? 1 : 0;
   summary_.blocks_left += update.tally.blocks_left;
   summary_.blocks_evicted += update.shift.blocks_evicted;
@@ -79,9 +80,7 @@ Status MappingSession::integrate(const Frame& frame) {
     if (auto started = start_again(); !started) return started;
   }
   const MapUpdate update = mapper_->integrate(frame);
-  book(update);
-  if (frame.seen_at && update.verdict == FrameVerdict::kIntegrated)
-    summary_.latency.add_age(HostTime::clock::now() - *frame.seen_at);
+  book(frame, update);
   if (options_.observer != nullptr) options_.observer->frame_done(frame, update, *mapper_);
   if (update.verdict != FrameVerdict::kIntegrated) return Done{};
   if (store_ == nullptr) return create_file(frame.T_world_camera.translation());

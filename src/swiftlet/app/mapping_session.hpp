@@ -78,7 +78,7 @@ class MappingSession {
   [[nodiscard]] Status set_old_map_aside();
   [[nodiscard]] Expected<SavedFile> read_back() const;
   [[nodiscard]] Status start_again();
-  void book(const MapUpdate& update);
+  void book(const Frame& frame, const MapUpdate& update);
 
   SessionOptions options_;
   bool is_old_map_aside_ = false;

@@ -36,16 +36,16 @@ struct Tested {
 };
 
 /// The scene and its true poses.
-class World {
+class FlownWorld {
  public:
-  World(SimFlight flight, sim::RayCaster caster, const PinholeIntrinsics& lens,
-        const ConditionOptions& range)
+  FlownWorld(SimFlight flight, sim::RayCaster caster, const PinholeIntrinsics& lens,
+             const ConditionOptions& range)
       : flight_(std::move(flight)), caster_(std::move(caster)), lens_(lens) {
     sight_.min_range_m = range.min_range_m;
     sight_.max_range_m = range.max_range_m;
   }
 
-  static Expected<World> create(const ScoreJob& job) {
+  static Expected<FlownWorld> create(const ScoreJob& job) {
     auto flight = read_sim_flight(std::string_view(job.source).substr(kKind.size()));
     if (!flight) return forward_error(std::move(flight));
     auto caster = sim::RayCaster::create(flight->scene);
@@ -53,7 +53,7 @@ class World {
     const sim::StereoOptions& camera = flight->scene.camera;
     auto lens = PinholeIntrinsics::from_field_of_view(camera.width, camera.height, camera.hfov_rad);
     if (!lens) return forward_error(std::move(lens));
-    return World(std::move(*flight), std::move(*caster), *lens, job.config.depth);
+    return FlownWorld(std::move(*flight), std::move(*caster), *lens, job.config.depth);
   }
 
   [[nodiscard]] const sim::Scene& scene() const { return flight_.scene; }
@@ -93,7 +93,7 @@ class World {
     if (cells <= kMostCells) return box;
     return fail(ErrorCode::kUsage, flight_.scene.name,
                 fmt::format("the flight sees a box of {:.0f} million cells", 1e-6 * cells),
-                "choose larger cells with --voxel or a shorter depth.max_range_m");
+                "choose a larger map.voxel_m or a shorter depth.max_range_m");
   }
 
  private:
@@ -107,18 +107,14 @@ VoxelBox bounds_of(const std::vector<VoxelIndex>& cells) {
   VoxelBox box{{0, 0, 0}, {0, 0, 0}};
   if (cells.empty()) return box;
   box = {cells.front(), cells.front()};
-  for (const VoxelIndex& v : cells) {
-    box.first = {std::min(box.first.x, v.x), std::min(box.first.y, v.y),
-                 std::min(box.first.z, v.z)};
-    box.last = {std::max(box.last.x, v.x), std::max(box.last.y, v.y), std::max(box.last.z, v.z)};
-  }
+  for (const VoxelIndex& v : cells) box.include(v);
   return box;
 }
 
 /// A flight, with everything that is noted on the way.
 class Judge {
  public:
-  Judge(World world, const VoxelBox& box, double voxel_m, std::vector<Entrant> entrants)
+  Judge(FlownWorld world, const VoxelBox& box, double voxel_m, std::vector<Entrant> entrants)
       : world_(std::move(world)), truth_(world_.scene().objects, voxel_m, box) {
     const auto swept = eval::swept_cells(world_.scene(), voxel_m, box);
     for (const VoxelIndex& v : swept) truth_.mark_swept(v);
@@ -204,7 +200,7 @@ class Judge {
     }
   }
 
-  World world_;
+  FlownWorld world_;
   eval::Truth truth_;
   std::vector<eval::ThinCell> thin_;
   bool has_movers_ = false;
@@ -223,7 +219,7 @@ Expected<ScoreReport> score_flight(const ScoreJob& job) {
   if (!source) return forward_error(std::move(source));
   auto entrants = make_entrants(job);
   if (!entrants) return forward_error(std::move(entrants));
-  auto world = World::create(job);
+  auto world = FlownWorld::create(job);
   if (!world) return forward_error(std::move(world));
   const double voxel_m = job.config.map.voxel_m;
   const auto box = world->extent(voxel_m);

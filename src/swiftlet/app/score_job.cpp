@@ -12,8 +12,7 @@ namespace {
 Expected<std::unique_ptr<Contender>> make_entrant(const ScoreJob& job, const std::string& name) {
   if (name != kOctomap) {
     MapperConfig config = job.config;
-    const bool is_fusion = name == kThesisFusion || name == kSharpFusion;
-    (is_fusion ? config.integrate.fusion : config.integrate.integrator) = name;
+    (is_fusion(name) ? config.integrate.fusion : config.integrate.integrator) = name;
     return make_mapper_contender(config, true);
   }
   constexpr bool kIsDiscretised = false;

@@ -31,6 +31,11 @@ struct VoxelBox {
     return v.x >= first.x && v.x <= last.x && v.y >= first.y && v.y <= last.y && v.z >= first.z &&
            v.z <= last.z;
   }
+  /// Grows until it contains the cell.
+  constexpr void include(const VoxelIndex& v) {
+    first = {std::min(first.x, v.x), std::min(first.y, v.y), std::min(first.z, v.z)};
+    last = {std::max(last.x, v.x), std::max(last.y, v.y), std::max(last.z, v.z)};
+  }
 };
 
 /// The part of a segment inside a box, as parameters 0 <= begin <= end <= 1; begin > end if it

@@ -16,16 +16,9 @@ class LonePixels final : public DepthStep {
 
   void apply(ConditionedDepth& depth) override {
     constexpr int kSupport = 2;
-    const NoiseTolerance tolerance = noise_tolerance(depth.noise_per_m, depth.unit_m);
-    neighbours_.take(depth.raw);
-    for (int v = 0; v < depth.raw.height(); ++v) {
-      neighbours_.gather(v, 1, tolerance);
-      const auto row = depth.raw.row(v);
-      for (int u = 0; u < depth.raw.width(); ++u) {
-        std::uint16_t& d = row[static_cast<std::size_t>(u)];
-        d = neighbours_.count(u) > kSupport ? d : std::uint16_t{0};
-      }
-    }
+    neighbours_.replace_each(depth, 1, [](std::uint16_t d, int count, int) {
+      return count > kSupport ? d : std::uint16_t{0};
+    });
   }
 
  private:

@@ -68,9 +68,9 @@ constexpr float kMostTolerance = 1300.0F;
 
 }  // namespace
 
-NoiseTolerance noise_tolerance(float noise_per_m, float unit_m) {
+NoiseTolerance noise_tolerance(const ConditionedDepth& depth) {
   constexpr float kDeviations = 3.0F * 1.41421356F;
-  return {1.0F, 0.01F, kDeviations * noise_per_m * unit_m};
+  return {1.0F, 0.01F, kDeviations * depth.noise_per_m * depth.unit_m};
 }
 
 void NeighbourSums::take(const Image<std::uint16_t>& image) {
@@ -101,9 +101,13 @@ void NeighbourSums::gather(int v, int reach, const NoiseTolerance& t) {
 }
 
 void BorderedImage::take(const Image<std::uint16_t>& image) {
-  constexpr std::size_t kAround = std::size_t{2} * kBorder;
-  stride_ = static_cast<std::size_t>(image.width()) + kAround + kSlack;
-  pixels_.assign(stride_ * (static_cast<std::size_t>(image.height()) + kAround), 0);
+  if (image.width() != width_ || image.height() != height_) {
+    width_ = image.width();
+    height_ = image.height();
+    constexpr std::size_t kAround = std::size_t{2} * kBorder;
+    stride_ = static_cast<std::size_t>(width_) + kAround + kSlack;
+    pixels_.assign(stride_ * (static_cast<std::size_t>(height_) + kAround), 0);
+  }
   for (int v = 0; v < image.height(); ++v) {
     std::ranges::copy(image.row(v),
                       &pixels_[static_cast<std::size_t>(v + kBorder) * stride_ + kBorder]);

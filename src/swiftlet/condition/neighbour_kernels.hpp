@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "swiftlet/base/image.hpp"
+#include "swiftlet/condition/conditioned_depth.hpp"
 
 namespace swiftlet {
 
@@ -21,10 +21,10 @@ struct NoiseTolerance {
 
 /// Three deviations of the difference of two readings, and a surface whose depth changes by a
 /// hundredth from one pixel to the next: at 415 px of focal length that is 76 degrees of incidence.
-[[nodiscard]] NoiseTolerance noise_tolerance(float noise_per_m, float unit_m);
+[[nodiscard]] NoiseTolerance noise_tolerance(const ConditionedDepth& depth);
 
 /// An image with a border of readings that are none, so that every pixel has all its neighbours.
-/// Allocates only when the image is larger than any before.
+/// Allocates only when the size of images changes.
 class BorderedImage {
  public:
   static constexpr int kBorder = 2;
@@ -38,6 +38,7 @@ class BorderedImage {
   }
 
  private:
+  int width_ = 0, height_ = 0;
   std::size_t stride_ = 0;
   std::vector<std::uint16_t> pixels_;
 };
@@ -53,22 +54,29 @@ struct NeighbourRow {
 
 /// How many of the readings around each pixel of a row agree with it, and how much deeper they are
 /// together: on the widest vectors of this machine, the same values on all of them.
-/// Real time: allocates only when the image is larger than any before.
+/// Real time: allocates only when the size of images changes.
 class NeighbourSums {
  public:
-  void take(const Image<std::uint16_t>& image);
-  /// For row v, in squares of 3 x 3 (reach 1) or 5 x 5 (reach 2). A pixel without a reading agrees
-  /// with those that have none.
-  void gather(int v, int reach, const NoiseTolerance& tolerance);
-
-  /// Readings that agree, itself included.
-  [[nodiscard]] int count(int u) const { return count_[static_cast<std::size_t>(u)]; }
-  /// Sum of their differences to it, in device units.
-  [[nodiscard]] int sum(int u) const {
-    return static_cast<std::int16_t>(sum_[static_cast<std::size_t>(u)]);
+  /// Replaces every pixel of an image by pick(pixel, count, sum): how many readings of the square
+  /// of 3 x 3 (reach 1) or 5 x 5 (reach 2) around it agree with it, itself included, and the sum of
+  /// their differences to it, in device units. A pixel without a reading agrees with those that
+  /// have none.
+  template <class Pick>
+  void replace_each(ConditionedDepth& depth, int reach, Pick&& pick) {
+    const NoiseTolerance tolerance = noise_tolerance(depth);
+    take(depth.raw);
+    for (int v = 0; v < depth.raw.height(); ++v) {
+      gather(v, reach, tolerance);
+      const auto row = depth.raw.row(v);
+      for (std::size_t u = 0; u < row.size(); ++u)
+        row[u] = pick(row[u], int{count_[u]}, int{static_cast<std::int16_t>(sum_[u])});
+    }
   }
 
  private:
+  void take(const Image<std::uint16_t>& image);
+  void gather(int v, int reach, const NoiseTolerance& tolerance);
+
   BorderedImage image_;
   int width_ = 0;
   std::vector<std::uint16_t> tolerance_, count_, sum_;  // of one row, and room for a vector

@@ -20,19 +20,11 @@ class Smooth final : public DepthStep {
 
   void apply(ConditionedDepth& depth) override {
     constexpr float kNoiseLeft = 0.3F;
-    const NoiseTolerance tolerance = noise_tolerance(depth.noise_per_m, depth.unit_m);
-    neighbours_.take(depth.raw);
-    for (int v = 0; v < depth.raw.height(); ++v) {
-      neighbours_.gather(v, 2, tolerance);
-      const auto row = depth.raw.row(v);
-      for (int u = 0; u < depth.raw.width(); ++u) {
-        std::uint16_t& d = row[static_cast<std::size_t>(u)];
-        const float deeper = static_cast<float>(neighbours_.sum(u)) /
-                             static_cast<float>(std::max(neighbours_.count(u), 1));
-        const long mean = std::lround(static_cast<float>(d) + deeper);
-        d = static_cast<std::uint16_t>(d == 0 ? 0 : mean);
-      }
-    }
+    neighbours_.replace_each(depth, 2, [](std::uint16_t d, int count, int sum) {
+      const float deeper = static_cast<float>(sum) / static_cast<float>(std::max(count, 1));
+      const long mean = std::lround(static_cast<float>(d) + deeper);
+      return static_cast<std::uint16_t>(d == 0 ? 0 : mean);
+    });
     depth.noise_left *= kNoiseLeft;
   }
 

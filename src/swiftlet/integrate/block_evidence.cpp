@@ -52,13 +52,15 @@ FrameEvidence::FrameEvidence(const CubeView& view, const DepthPyramid& pyramid,
       frame_number_(frame_number) {}
 
 void FrameEvidence::judge_halves(const CubeInView& cube, int edge, Verdict verdict,
-                                 Verdicts& verdicts) const {
-  verdicts.fill(verdict);
-  if (verdict == Verdict::kFree) return;
-  CubeBatch halves;
-  for (int i = 0; i < 8; ++i) halves.add(view_.child(cube, edge, i).p_camera);
-  for (int i = 0; i < 3; ++i) halves.half_camera[i] = 0.5F * cube.half_camera[i];
-  judge(halves, verdicts);
+                                 JudgedHalves& halves) const {
+  CubeBatch batch;
+  for (std::size_t i = 0; i < halves.cubes.size(); ++i) {
+    halves.cubes[i] = view_.child(cube, edge, static_cast<int>(i));
+    batch.add(halves.cubes[i].p_camera);
+  }
+  batch.half_camera = halves.cubes[0].half_camera;
+  halves.verdicts.fill(verdict);
+  if (verdict != Verdict::kFree) judge(batch, halves.verdicts);
 }
 
 CellCube FrameEvidence::cells_of(const CubeInView& cube, int edge, int offset) const {
@@ -123,13 +125,13 @@ void FrameEvidence::descend(const CubeInView& cube, int edge, int offset, Verdic
     return;
   }
   const int half = edge / 2;
-  Verdicts verdicts;
-  judge_halves(cube, half, verdict, verdicts);
+  JudgedHalves halves;
+  judge_halves(cube, half, verdict, halves);
   for (int i = 0; i < 8; ++i) {
     const int x = i & 1, y = (i >> 1) & 1, z = i >> 2;
-    const CubeInView part = view_.child(cube, half, i);
+    const CubeInView& part = halves.cubes[static_cast<std::size_t>(i)];
     descend(part, half, offset + half * (x + kBlockEdge * (y + kBlockEdge * z)),
-            verdicts[static_cast<std::size_t>(i)], work);
+            halves.verdicts[static_cast<std::size_t>(i)], work);
     // Near the camera, each part of a block needs samples of its own.
     if (edge == kBlockEdge && cube.p_camera[2] < kFarCells * frame_.voxel_m) look(part, work);
   }

@@ -13,6 +13,12 @@
 
 namespace swiftlet {
 
+/// The eight halves of a cube, as CubeView::child() counts them, and what a frame says of each.
+struct JudgedHalves {
+  std::array<CubeInView, 8> cubes;
+  Verdicts verdicts;
+};
+
 /// Where the evidence of one block is put together.
 struct BlockEvidence {
   std::array<FixedSteps, kBlockVoxels> steps;
@@ -31,9 +37,9 @@ class FrameEvidence {
   void judge(const CubeBatch& cubes, Verdicts& verdicts) const {
     judge_cubes(frame_, tiles_, cubes, verdicts);
   }
-  /// The eight halves of a cube, as CubeView::child counts them; `edge` [cells] is theirs. What
-  /// passes a cube passes its halves: those of a free one need no look.
-  void judge_halves(const CubeInView& cube, int edge, Verdict verdict, Verdicts& verdicts) const;
+  /// The eight halves, `edge` cells wide, of a cube that was judged so. What passes a cube passes
+  /// its halves: those of a free one need no look.
+  void judge_halves(const CubeInView& cube, int edge, Verdict verdict, JudgedHalves& halves) const;
 
   /// The evidence for a block that was judged so. Cells that `known` shows to be surely free may be
   /// left out where they are free. False if there is none.

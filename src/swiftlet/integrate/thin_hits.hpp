@@ -24,6 +24,7 @@ class ThinHits {
  public:
   static constexpr int kLeastHits = 3;
   static constexpr std::int32_t kGain = 45;
+  static constexpr std::size_t kMostCells = 1U << 14;  ///< in one frame
 
   ThinHits();
 
@@ -39,8 +40,7 @@ class ThinHits {
   };
 
  private:
-  static constexpr std::size_t kSlots = 1U << 15;  // a power of two
-  static constexpr std::size_t kMostCells = kSlots / 2;
+  static constexpr std::size_t kSlots = 2 * kMostCells;  // a power of two
   struct Slot {
     VoxelIndex cell;
     std::uint32_t frame = 0;  // the slot is empty in any other

@@ -30,19 +30,19 @@ class ViewCubes {
                       Visit&& visit) const {
     const Cube& c = cubes_[cube];
     const CubeInView whole = view.cube(first_voxel(c.blocks.first), kCube * kBlockEdge);
-    Verdicts of_halves, of_blocks;
-    frame.judge_halves(whole, kCube / 2 * kBlockEdge, c.verdict, of_halves);
+    JudgedHalves halves, blocks;
+    frame.judge_halves(whole, kCube / 2 * kBlockEdge, c.verdict, halves);
     for (int i = 0; i < 8; ++i) {
-      const Verdict verdict = of_halves[static_cast<std::size_t>(i)];
+      const auto half = static_cast<std::size_t>(i);
+      const Verdict verdict = halves.verdicts[half];
       if (verdict == Verdict::kNothing) continue;
-      const CubeInView half = view.child(whole, kCube / 2 * kBlockEdge, i);
-      frame.judge_halves(half, kBlockEdge, verdict, of_blocks);
+      frame.judge_halves(halves.cubes[half], kBlockEdge, verdict, blocks);
       for (int k = 0; k < 8; ++k) {
         const BlockIndex place{2 * (i & 1) + (k & 1), (i & 2) + ((k >> 1) & 1),
                                2 * (i >> 2) + (k >> 2)};
         const BlockIndex index{c.blocks.first.x + place.x, c.blocks.first.y + place.y,
                                c.blocks.first.z + place.z};
-        const Verdict of_block = of_blocks[static_cast<std::size_t>(k)];
+        const Verdict of_block = blocks.verdicts[static_cast<std::size_t>(k)];
         if (of_block != Verdict::kNothing && c.blocks.contains(index)) visit(index, of_block);
       }
     }

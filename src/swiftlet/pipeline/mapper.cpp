@@ -57,10 +57,9 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   StageTimer timer(update.times);
   SensorOptions instrument = config_.sensor;
   if (frame.baseline_m > 0.0) instrument.baseline_m = frame.baseline_m;
-  const double noise_per_m =
-      instrument.subpixel_px / (frame.intrinsics.fx() * instrument.baseline_m);
+  const StereoNoise noise{frame.intrinsics.fx(), instrument.baseline_m, instrument.subpixel_px};
   const ConditionedDepth& depth =
-      conditioner_.clean(frame.depth, noise_per_m, 0.5 * map_.voxel_m());
+      conditioner_.clean(frame.depth, noise.sigma_m(1.0), 0.5 * map_.voxel_m());
   timer.finish(Stage::kCondition);
   if (!has_readings(depth)) {
     update.verdict = FrameVerdict::kNoReadings;

@@ -66,7 +66,7 @@ std::vector<Error> MapperConfig::faults() const {
   keep_fault(faults, "depth.steps", Conditioner::create(depth));
   keep_fault(faults, "integrate.integrator",
              find_registered(integrators(), integrate.integrator, "integrator"));
-  if (integrate.fusion != kThesisFusion && integrate.fusion != kSharpFusion) {
+  if (!is_fusion(integrate.fusion)) {
     faults.push_back({ErrorCode::kInvalidConfig, "integrate.fusion",
                       fmt::format("unknown fusion '{}'", integrate.fusion),
                       "known are: thesis, sharp"});

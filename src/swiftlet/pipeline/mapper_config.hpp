@@ -19,6 +19,9 @@ namespace swiftlet {
 /// weighed against their neighbours first and thin things kept (docs/accuracy.md).
 inline constexpr std::string_view kThesisFusion = "thesis";
 inline constexpr std::string_view kSharpFusion = "sharp";
+[[nodiscard]] constexpr bool is_fusion(std::string_view name) {
+  return name == kThesisFusion || name == kSharpFusion;
+}
 
 /// Every parameter of the mapper, with its default.
 struct MapperConfig {

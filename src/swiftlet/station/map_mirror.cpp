@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "swiftlet/query/occupancy_query.hpp"
+
 namespace swiftlet::station {
 namespace {
 
@@ -32,13 +34,10 @@ bool holds_only_unknown(const VoxelBlock& block) {
 }  // namespace
 
 MapDigest MapMirror::share_of(const BlockIndex& index, const VoxelBlock& block) const {
-  MapDigest share{1, 0, 0, block_hash(index, block, 0), block_hash(index, block, 1)};
-  for (const LogOdds cell : block.cells) {
-    const Occupancy state = thresholds_.classify(cell);
-    share.occupied += state == Occupancy::kOccupied ? 1 : 0;
-    share.free += state == Occupancy::kFree ? 1 : 0;
-  }
-  return share;
+  CellCounts cells;
+  cells.add(block, thresholds_);
+  return {1, static_cast<std::uint32_t>(cells.occupied), static_cast<std::uint32_t>(cells.free),
+          block_hash(index, block, 0), block_hash(index, block, 1)};
 }
 
 void MapMirror::put(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) {

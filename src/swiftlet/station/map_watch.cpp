@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "swiftlet/map/rolling_map.hpp"
+
 namespace swiftlet::station {
 namespace {
 
@@ -60,8 +62,8 @@ void MapWatch::book(const FrameReport& frame, Look& look) {
   last_frame_ = frame;
   const Eigen::Vector3d& p_world = frame.T_world_camera.translation();
   if (frame.has_shifted) trigger_centre_m_ = p_world;
-  constexpr double kFarthest_m = 1e6;  // RollingMap::kMaxCoordinate_m; refused frames may be beyond
-  if (p_world.cwiseAbs().maxCoeff() < kFarthest_m) {
+  // Frames that were refused may be beyond.
+  if (p_world.cwiseAbs().maxCoeff() < RollingMap::kMaxCoordinate_m) {
     centre_ = block_of(voxel_containing(p_world, facts_.voxel_m));
   }
 }
