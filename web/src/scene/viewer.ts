@@ -47,6 +47,8 @@ export class Viewer {
   #isStale = true;
   #bounds: {low: Vec3; high: Vec3} | null = null;
   #last_ms = 0;
+  #lastDraw_ms = 0;
+  #drawTook_ms: number | null = 0;
   #lastJoin_ms = 0;
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly world: World, theme: Theme) {
@@ -123,7 +125,11 @@ export class Viewer {
     this.#last_ms = now_ms;
     // Blocks are joined ten times a second at most: the eye sees no more of a growing map. While the map has not come
     // whole for the first time, taking it is worth more than drawing its parts.
-    const pause_ms = this.world.sealedFrame < 0 ? 400 : 100;
+    const isWhole = this.world.sealedFrame >= 0;
+    const pause_ms = isWhole ? 100 : 400;
+    const sinceDraw_ms = now_ms - this.#lastDraw_ms;
+    this.#drawTook_ms ??= sinceDraw_ms; // the browser calls again when it is done
+    if (!isWhole && this.#drawTook_ms > 50 && sinceDraw_ms < pause_ms) return;
     if (this.world.changed.size > 0 && now_ms - this.#lastJoin_ms > pause_ms) {
       this.#lastJoin_ms = now_ms;
       this.#takeBlocks();
@@ -133,6 +139,8 @@ export class Viewer {
     const moves = this.cameras.step(this.#bounds?.low ?? null, this.#bounds?.high ?? null, frame, dt_s, size);
     if (!moves && !this.#isStale) return;
     this.#isStale = false;
+    this.#lastDraw_ms = now_ms;
+    this.#drawTook_ms = null;
     this.#arrange();
     this.renderer.info.reset();
     this.renderer.render(this.#scene, this.cameras.camera);
