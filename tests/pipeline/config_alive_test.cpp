@@ -69,6 +69,7 @@ MapperConfig base_config() {
   config.depth.downsample = 4;
   config.integrate.integrator = "rays";  // reads ray_method; the parameters below are the other's
   config.depth.min_range_m = 0.4;
+  config.depth.distortion = {0.05, 0.08, 0.1, 0.1, 0.1};
   config.map.size_m = {16.0, 16.0, 6.0};  // 0.6 of it must lie in fewer blocks and still be allowed
   return config;
 }
@@ -106,11 +107,20 @@ TEST(MapperConfig, sharp_fusion_adds_its_steps_behind_the_range_gate) {
   MapperConfig config;
   config.integrate.fusion = "sharp";
   EXPECT_EQ(config.conditioning().steps,
-            (std::vector<std::string>{"range_gate", "lone_pixels", "smooth", "to_centres",
-                                      "near_downsample"}));
+            (std::vector<std::string>{"distortion", "range_gate", "lone_pixels", "smooth",
+                                      "to_centres", "near_downsample"}));
   config.integrate.fusion = "blunt";
   ASSERT_EQ(config.faults().size(), 1U);
   EXPECT_EQ(config.faults().front().where, "integrate.fusion");
+}
+
+TEST(MapperConfig, numbers_of_distortion_that_no_step_reads_are_a_fault) {
+  MapperConfig config;
+  config.depth.steps = {"range_gate"};
+  EXPECT_TRUE(config.faults().empty());
+  config.depth.distortion.x2_per_m = 0.05;
+  ASSERT_EQ(config.faults().size(), 1U);
+  EXPECT_EQ(config.faults().front().where, "depth.steps");
 }
 
 TEST(MapperConfig, an_integrator_is_chosen_by_its_name) {

@@ -59,7 +59,7 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   if (frame.baseline_m > 0.0) instrument.baseline_m = frame.baseline_m;
   const StereoNoise noise{frame.intrinsics.fx(), instrument.baseline_m, instrument.subpixel_px};
   const ConditionedDepth& depth =
-      conditioner_.clean(frame.depth, noise.sigma_m(1.0), 0.5 * map_.voxel_m());
+      conditioner_.clean(frame.depth, frame.intrinsics, {noise.sigma_m(1.0), 0.5 * map_.voxel_m()});
   timer.finish(Stage::kCondition);
   if (!has_readings(depth)) {
     update.verdict = FrameVerdict::kNoReadings;

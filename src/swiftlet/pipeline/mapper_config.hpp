@@ -68,6 +68,18 @@ void visit_config(Config& c, Visit&& visit) {
   visit(ConfigField{"depth.downsample",
                     "n: every n x n pixels become their nearest reading; 1 keeps all", 1, 64},
         c.depth.downsample);
+  visit(
+      ConfigField{
+          "distortion.x2_per_m",
+          "depth error over X^2, X to the right of the optical axis; see `swiftlet calibrate`",
+          -10.0, 10.0},
+      c.depth.distortion.x2_per_m);
+  visit(ConfigField{"distortion.y2_per_m", "depth error over Y^2, Y down", -10.0, 10.0},
+        c.depth.distortion.y2_per_m);
+  visit(ConfigField{"distortion.x1", "depth error over X", -1.0, 1.0}, c.depth.distortion.x1);
+  visit(ConfigField{"distortion.y1", "depth error over Y", -1.0, 1.0}, c.depth.distortion.y1);
+  visit(ConfigField{"distortion.offset_m", "depth error in the middle of the image", -1.0, 1.0},
+        c.depth.distortion.offset_m);
   visit(ConfigField{"sensor.baseline_m", "distance of the stereo pair", 0.001, 10.0},
         c.sensor.baseline_m);
   visit(ConfigField{"sensor.subpixel_px",
