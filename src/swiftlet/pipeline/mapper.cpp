@@ -32,12 +32,13 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
     : config_(config),
       archive_(archive),
       map_(std::move(map)),
+      gate_(std::make_unique<FrameGate>(config.quality)),
       conditioner_(std::move(conditioner)),
       integrator_(std::move(integrator)) {
   if (config.integrate.fusion == kSharpFusion) thin_.emplace();
 }
 
-std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) const {
+std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) {
   const auto& raw = frame.depth.raw;
   if (raw.width() != frame.intrinsics.width() || raw.height() != frame.intrinsics.height()) {
     return FrameVerdict::kSizeMismatch;
@@ -45,16 +46,16 @@ std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) const {
   if (frame.T_world_camera.translation().cwiseAbs().maxCoeff() >= RollingMap::kMaxCoordinate_m) {
     return FrameVerdict::kPoseOutOfRange;
   }
-  return std::nullopt;
+  return gate_->refusal(frame);
 }
 
 MapUpdate Mapper::integrate(const Frame& frame) {
   MapUpdate update;
+  StageTimer timer(update.times);
   if (const auto verdict = refusal(frame)) {
     update.verdict = *verdict;
     return update;
   }
-  StageTimer timer(update.times);
   SensorOptions instrument = config_.sensor;
   if (frame.baseline_m > 0.0) instrument.baseline_m = frame.baseline_m;
   const StereoNoise noise{frame.intrinsics.fx(), instrument.baseline_m, instrument.subpixel_px};

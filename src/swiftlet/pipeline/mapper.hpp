@@ -12,20 +12,11 @@
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/thin_hits.hpp"
 #include "swiftlet/map/rolling_map.hpp"
+#include "swiftlet/pipeline/frame_gate.hpp"
 #include "swiftlet/pipeline/mapper_config.hpp"
 #include "swiftlet/pipeline/stage_times.hpp"
 
 namespace swiftlet {
-
-/// What became of a frame. Refused frames leave the map as it was.
-enum class FrameVerdict : std::uint8_t {
-  kIntegrated,
-  kNoReadings,      ///< no valid pixel within range
-  kSizeMismatch,    ///< the image is not of the size that its intrinsics speak of
-  kPoseOutOfRange,  ///< farther than 1000 km from the origin
-};
-inline constexpr std::array<std::string_view, 4> kFrameVerdictNames{
-    "integrated", "no_readings", "size_mismatch", "pose_out_of_range"};
 
 /// What one call of integrate() did.
 struct MapUpdate {
@@ -70,11 +61,12 @@ class Mapper {
  private:
   Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map, Conditioner conditioner,
          std::unique_ptr<Integrator> integrator);
-  [[nodiscard]] std::optional<FrameVerdict> refusal(const Frame& frame) const;
+  [[nodiscard]] std::optional<FrameVerdict> refusal(const Frame& frame);
 
   MapperConfig config_;
   BlockArchive* archive_;
   RollingMap map_;
+  std::unique_ptr<FrameGate> gate_;
   Conditioner conditioner_;
   std::unique_ptr<Integrator> integrator_;
   std::optional<ThinHits> thin_;  // with sharp fusion only

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "swiftlet/condition/depth_step.hpp"
+#include "swiftlet/condition/frame_quality.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/map/log_odds.hpp"
 #include "swiftlet/map/rolling_map.hpp"
@@ -26,6 +27,7 @@ inline constexpr std::string_view kSharpFusion = "sharp";
 /// Every parameter of the mapper, with its default.
 struct MapperConfig {
   RollingMap::Options map;
+  QualityLimits quality;
   ConditionOptions depth;
   SensorOptions sensor;
   IntegrateOptions integrate;
@@ -60,6 +62,23 @@ void visit_config(Config& c, Visit&& visit) {
                     "how far the vehicle may leave the middle before the window moves (x, y, z)",
                     0.01, 1000.0},
         c.map.trigger_m);
+  visit(ConfigField{"quality.min_valid", "frames with a smaller share of valid pixels are refused",
+                    0.0, 1.0},
+        c.quality.min_valid);
+  visit(ConfigField{"quality.max_saturated",
+                    "likewise with a larger share of readings at the end of the scale; 1: never",
+                    0.0, 1.0},
+        c.quality.max_saturated);
+  visit(ConfigField{"quality.max_at_one_value",
+                    "likewise with a larger share of readings of one value; 1: never", 0.0, 1.0},
+        c.quality.max_at_one_value);
+  visit(ConfigField{"quality.max_smeared",
+                    "likewise with a larger share of blurred depth edges; 1: never", 0.0, 1.0},
+        c.quality.max_smeared);
+  visit(ConfigField{"quality.max_frozen",
+                    "likewise after so many equal images from a camera that moves; 0: never", 0,
+                    1000},
+        c.quality.max_frozen);
   visit(ConfigField{"depth.steps", "conditioning steps, in order"}, c.depth.steps);
   visit(ConfigField{"depth.min_range_m", "nearer readings are dropped", 0.0, 100.0},
         c.depth.min_range_m);
