@@ -76,6 +76,7 @@ TEST(Mapper, allocates_nothing_after_warm_up_even_when_the_window_moves_and_read
     config.map.size_m = {6, 6, 4};
     config.integrate.integrator = integrator;
     config.integrate.fusion = fusion;
+    config.integrate.decay_s = 0.5;
     config.depth.distortion = {0.01, 0.01, 0.0, 0.0, 0.0};
     config.quality.max_at_one_value = 0.9;
     Mapper mapper = new_mapper(config);
@@ -94,12 +95,15 @@ TEST(Mapper, allocates_nothing_after_warm_up_even_when_the_window_moves_and_read
     };
     for (Frame& frame : frames) fly(frame);
 
-    std::size_t shifts = 0;
+    std::size_t shifts = 0, decayed = 0;
     const test::AllocationCount allocations;
     for (Frame& frame : frames) {
-      shifts += fly(frame).shift.moved ? 1 : 0;
+      const MapUpdate update = fly(frame);
+      shifts += update.shift.moved ? 1 : 0;
+      decayed += update.decayed;
     }
     const std::size_t made = allocations.so_far();
+    EXPECT_GT(decayed, 0U);
     EXPECT_EQ(made, 0U) << integrator << ", " << fusion;
     EXPECT_GT(shifts, 5U);
     EXPECT_TRUE(reader.latest());

@@ -36,6 +36,8 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
       conditioner_(std::move(conditioner)),
       integrator_(std::move(integrator)) {
   if (config.integrate.fusion == kSharpFusion) thin_.emplace();
+  if (config.integrate.decay_s > 0.0)
+    decay_ = std::make_unique<GhostDecay>(config.integrate.decay_s);
 }
 
 std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) {
@@ -79,6 +81,11 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   if (thin_) thin_->collect(view, map_);
   update.tally = integrator_->integrate(view, sensor, map_);
   if (thin_) thin_->protect(map_);
+  if (decay_) {
+    const double sigma_per_z2 = sensor.noise().sigma_m(1.0);
+    update.decayed = decay_->apply(
+        view, {frame.stamp, frame.camera, sigma_per_z2, config_.depth.max_range_m}, map_);
+  }
   ++frame_count_;
   timer.finish(Stage::kIntegrate);
   update.was_published = map_.publish(frame_count_);

@@ -9,6 +9,7 @@
 
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/frame/frame.hpp"
+#include "swiftlet/integrate/ghost_decay.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/thin_hits.hpp"
 #include "swiftlet/map/rolling_map.hpp"
@@ -23,6 +24,7 @@ struct MapUpdate {
   FrameVerdict verdict = FrameVerdict::kIntegrated;
   RollingMap::Shift shift;
   IntegrationTally tally;
+  std::size_t decayed = 0;    ///< cells that lost belief because nothing is seen where they are
   bool was_published = true;  ///< false: readers hold every snapshot slot, so they see an older map
   StageTimes times;
 };
@@ -55,7 +57,8 @@ class Mapper {
   [[nodiscard]] std::uint64_t frame_count() const { return frame_count_; }
   /// The window and the integrator's scratch [bytes].
   [[nodiscard]] std::size_t memory_bytes() const {
-    return map_.memory_bytes() + integrator_->memory_bytes();
+    const std::size_t decay = decay_ ? decay_->memory_bytes() : 0;
+    return map_.memory_bytes() + integrator_->memory_bytes() + decay;
   }
 
  private:
@@ -69,7 +72,8 @@ class Mapper {
   std::unique_ptr<FrameGate> gate_;
   Conditioner conditioner_;
   std::unique_ptr<Integrator> integrator_;
-  std::optional<ThinHits> thin_;  // with sharp fusion only
+  std::optional<ThinHits> thin_;       // with sharp fusion only
+  std::unique_ptr<GhostDecay> decay_;  // null: never
   std::uint64_t frame_count_ = 0;
 };
 

@@ -130,6 +130,12 @@ void visit_config(Config& c, Visit&& visit) {
                     "once fusing took so long, far blocks wait for the next frame; 0: never", 0.0,
                     1000.0},
         c.integrate.max_frame_ms);
+  visit(
+      ConfigField{"integrate.decay_s",
+                  "in so many seconds an occupied cell becomes unknown where the camera looks and "
+                  "sees nothing, not even a background; 0: never",
+                  0.0, 3600.0},
+      c.integrate.decay_s);
   visit(ConfigField{"occupancy.free_below", "cells below this byte are free", 1, 127},
         c.occupancy.free_below);
   visit(ConfigField{"occupancy.occupied_from", "cells from this byte on are occupied", 128, 255},
