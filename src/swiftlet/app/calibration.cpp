@@ -72,8 +72,8 @@ Figure histogram(const CalibratedWall& wall, const std::vector<Version>& version
   for_each_depth(wall.raw, [&](float z_m) { raw_m.push_back(z_m); });
   std::ranges::sort(raw_m);
   const std::size_t tail = raw_m.size() / 200;
-  const double low_m = std::min(double{raw_m[tail]}, 0.97 * wall.distance_m);
-  const double high_m = std::max(double{raw_m[raw_m.size() - 1 - tail]}, 1.03 * wall.distance_m);
+  const double low_m = std::min(double{raw_m[tail]}, 0.95 * wall.distance_m);
+  const double high_m = std::max(double{raw_m[raw_m.size() - 1 - tail]}, 1.05 * wall.distance_m);
   const double bin_m = (high_m - low_m) / double{kBins};
   for (const Version& version : versions) {
     std::vector<std::size_t> counts(kBins, 0);

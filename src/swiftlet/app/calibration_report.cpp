@@ -41,7 +41,7 @@ Status write_calibration_report(const std::string& folder, std::span<const Calib
   std::vector<ExperimentRun> runs;
   for (const CalibratedWall& wall : walls) runs.push_back(run_of(wall));
   const auto has_figures =
-      write_report(runs, folder, {"Depth distortion", "walls are flat after calibration", "wall"});
+      write_report(runs, folder, {"Depth distortion", "walls are as flat as expected", "wall"});
   if (!has_figures) return tl::make_unexpected(has_figures.error());
   if (!*has_figures)
     std::fputs("figures are not drawn: install gnuplot (Debian: gnuplot-nox)\n", stderr);

@@ -31,7 +31,7 @@ h1 { font-size: 1.7rem; margin: 0; } h2 { font-size: 1.2rem; margin: 3rem 0 .2re
 p { margin: .3rem 0 1rem; color: var(--soft); }
 .table { overflow-x: auto; } table { border-collapse: collapse; width: 100%; }
 th, td { text-align: left; vertical-align: top; padding: .45rem .9rem .45rem 0;
-  border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
+  border-bottom: 1px solid var(--line); } td.what { overflow-wrap: anywhere; }
 th { font-weight: 600; color: var(--soft); font-size: .85rem; }
 td.verdict { white-space: nowrap; font-weight: 600; }
 .passed { color: var(--good); } .failed { color: var(--bad); }
@@ -73,7 +73,7 @@ std::string overview(std::span<const ExperimentRun> runs, const std::string& col
   for (const ExperimentRun& run : runs) {
     const std::string took = is_timed ? fmt::format("{:.1f} s", run.seconds) : "";
     html += fmt::format(
-        R"(<tr><td><a href="#{0}">{0}</a></td><td>{1}</td>{2}<td class="verdict">{3}</td></tr>)",
+        R"(<tr><td><a href="#{0}">{0}</a></td><td class="what">{1}</td>{2}<td class="verdict">{3}</td></tr>)",
         run.name, escaped(run.summary), verdict(run.result.is_passed()), took);
   }
   return html + "</table></div>\n";

@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "swiftlet/base/narrow.hpp"
 #include "swiftlet/condition/depth_step.hpp"
 
 namespace swiftlet::eval {
@@ -80,9 +81,10 @@ std::array<Tile, kTilesX * kTilesY> tiles_of(const WallImages& wall) {
   std::array<Tile, kTilesX * kTilesY> tiles{};
   const int width = wall.lens.width(), height = wall.lens.height();
   for_each_point(wall, [&](int u, int v, const Eigen::Vector3d& p) {
-    const int tile = v * kTilesY / height * kTilesX + u * kTilesX / width;
-    tiles[static_cast<std::size_t>(tile)].sum_m += p.z();
-    ++tiles[static_cast<std::size_t>(tile)].readings;
+    const int place = v * kTilesY / height * kTilesX + u * kTilesX / width;
+    Tile& tile = tiles[to<std::size_t>(place)];
+    tile.sum_m += p.z();
+    ++tile.readings;
   });
   return tiles;
 }

@@ -81,7 +81,7 @@ GhostDecay::Sight GhostDecay::look(const CubeView& view, const CubeInView& cube,
   const auto at = static_cast<std::size_t>(level);
   Sight sight{.is_in_view = true};
   for (int y = v0 >> shift; y <= v1 >> shift; ++y) {
-    const std::int32_t* row = tiles.words + tiles.first[at] + y * tiles.width[at];
+    const std::int32_t* row = tiles.words + tiles.first[at] + std::ptrdiff_t{y} * tiles.width[at];
     for (int x = u0 >> shift; x <= u1 >> shift; ++x) {
       const auto tile = static_cast<std::uint32_t>(row[x]);
       sight.has_gaps = sight.has_gaps || (tile & DepthPyramid::kHasGaps) != 0;
@@ -131,7 +131,7 @@ std::size_t GhostDecay::decay_block(const CubeView& view, const BlockIndex& inde
   for (int first = 0; first < kBlockVoxels; first += kBlockEdge) {
     if ((row_of_cells(*known, first) & kAboveUnknown) == 0) continue;
     for (int x = 0; x < kBlockEdge; ++x) {
-      const auto place = static_cast<std::size_t>(first + x);
+      const std::size_t place = static_cast<std::size_t>(first) + static_cast<std::size_t>(x);
       if (known->cells[place] <= kUnknownCell) continue;
       const std::array<int, 3> from_first{x, first / kBlockEdge % kBlockEdge,
                                           first / (kBlockEdge * kBlockEdge)};
