@@ -36,7 +36,7 @@ const Flight& flight() {
       auto frame = (*source)->next();
       if (!frame || !*frame) break;
       if (i % kEvery != 0) continue;
-      made.depths.push_back(conditioner->clean((*frame)->depth));
+      made.depths.push_back(conditioner->clean((*frame)->depth, (*frame)->intrinsics, {}));
       made.frames.push_back(std::move(**frame));
     }
     return made;

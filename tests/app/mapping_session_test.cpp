@@ -31,6 +31,7 @@ Saved map(const std::vector<Frame>& frames, std::size_t expected_restarts) {
   const test::TempFolder folder;
   MapperConfig config;
   config.depth.downsample = 1;
+  config.quality.max_frozen = 0;  // one image, seen from everywhere
   SessionOptions options;
   options.path = (folder / "map.swl").string();
   auto session = MappingSession::create(config, options);

@@ -71,7 +71,7 @@ TEST_F(Score, a_truth_that_would_not_fit_is_refused_before_the_flight) {
   const Ended ended = swiftlet({"score", "sim:wall", "--maps", "projective", "--set",
                                 "map.voxel_m=0.005", "--set", "map.size_m=[2,2,2]"});
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("million cells; choose larger cells"));
+  EXPECT_THAT(ended.err, HasSubstr("million cells; choose a larger map.voxel_m"));
 }
 
 #endif

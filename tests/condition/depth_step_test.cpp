@@ -32,17 +32,25 @@ ConditionOptions random_options(Random& random) {
   options.min_range_m = random.real(0.0, 2.0);
   options.max_range_m = random.real(3.0, 60.0);
   options.downsample = random.integer(1, 11);
+  options.distortion = {random.real(-0.2, 0.2), random.real(-0.2, 0.2), random.real(-0.1, 0.1),
+                        random.real(-0.1, 0.1), random.real(-0.1, 0.1)};
   return options;
 }
 
 ConditionedDepth in_mm(const Image<std::uint16_t>& image) {
   ConditionedDepth depth;
   depth.raw = image;
+  const double width = image.width(), height = image.height();
+  depth.lens = PinholeIntrinsics::create(image.width(), image.height(), 40.0, 50.0, 0.4 * width,
+                                         0.6 * height)
+                   .value();
   return depth;
 }
 
 /// Steps that may move a reading, though never out of nothing.
-bool moves_readings(std::string_view name) { return name == "smooth" || name == "to_centres"; }
+bool moves_readings(std::string_view name) {
+  return name == "smooth" || name == "to_centres" || name == "distortion";
+}
 
 class EveryDepthStep : public testing::TestWithParam<Registered<MakeDepthStep>> {};
 
@@ -191,6 +199,41 @@ TEST(ToCentres, moves_every_reading_half_a_cell_back_and_says_so) {
   EXPECT_EQ(depth.raw.at(1, 0), 1050);
   EXPECT_EQ(depth.raw.at(2, 0), 65535) << "no reading becomes a near one";
   EXPECT_FLOAT_EQ(depth.shift_m, 0.05F);
+}
+
+// Eq. A.3 in doubles, term by term.
+TEST(Distortion, subtracts_the_polynomial_of_the_point_that_was_read) {
+  test::for_each_seed(40, [](Random& random) {
+    const Image<std::uint16_t> image = random_image(random);
+    const ConditionOptions options = random_options(random);
+    const DepthDistortion& p = options.distortion;
+    ConditionedDepth depth = in_mm(image);
+    depth.unit_m = random.chance(0.5) ? 0.001F : 0.0001F;
+    find_registered(depth_steps(), "distortion", "step")->make(options)->apply(depth);
+    for (int v = 0; v < image.height(); ++v) {
+      for (int u = 0; u < image.width(); ++u) {
+        const Eigen::Vector3d q =
+            depth.lens->back_project(u, v, double{depth.unit_m} * image.at(u, v));
+        const double z_m = q.z() - (p.x2_per_m * q.x() * q.x() + p.y2_per_m * q.y() * q.y() +
+                                    p.x1 * q.x() + p.y1 * q.y() + p.offset_m);
+        const double units = z_m / double{depth.unit_m};
+        const bool is_reading = image.at(u, v) != 0 && units >= 0.5 && units <= 65535.0;
+        const double nearest = is_reading ? units : 0.0;
+        // Floats of 24 bits: half a unit of rounding, and some units where readings are far off.
+        EXPECT_NEAR(depth.raw.at(u, v), nearest, 0.51 + 1e-5 * std::abs(nearest))
+            << "pixel " << u << " " << v << " of " << image.at(u, v);
+      }
+    }
+  });
+}
+
+TEST(Distortion, without_numbers_leaves_the_image_alone_and_asks_for_no_lens) {
+  Random random;
+  const Image<std::uint16_t> image = random_image(random);
+  ConditionedDepth depth;
+  depth.raw = image;
+  find_registered(depth_steps(), "distortion", "step")->make({})->apply(depth);
+  EXPECT_TRUE(std::ranges::equal(depth.raw.pixels(), image.pixels()));
 }
 
 // Brute force from the sentence of method 2, over whole images.

@@ -38,6 +38,7 @@ TEST(WallNoise, recovers_the_disparity_error_of_straight_and_tilted_walls) {
       const auto measured = measure_wall(wall(lens, distance_m, slope, s_px, random), lens);
       ASSERT_TRUE(measured);
       EXPECT_NEAR(measured->distance_m, distance_m, 0.05 * distance_m);
+      EXPECT_NEAR(measured->tilt_rad, std::atan(std::abs(slope)), 0.02);
       walls.push_back(*measured);
     }
     // 4240 readings a wall: 1 % of statistics, and the mean of z^2 over a tilted wall.

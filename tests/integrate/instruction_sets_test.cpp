@@ -23,7 +23,7 @@ std::vector<VoxelBlock> mapped(std::uint64_t seed, int threads = 1) {
   auto conditioner = Conditioner::create({.downsample = 1});
   for (std::uint64_t i = 0; i < 4; ++i) {
     const Frame frame = test::random_frame(random, test::small_camera(163, 121));
-    const ConditionedDepth& depth = conditioner->clean(frame.depth);
+    const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, {});
     const StereoSensor sensor(frame.intrinsics, {}, map->voxel_m(), 1);
     integrator->integrate({depth, frame.intrinsics, frame.T_world_camera, i}, sensor, *map);
   }
@@ -61,7 +61,7 @@ TEST(Projective, counts_the_blocks_that_a_deadline_leaves) {
   test::Random random;
   const Frame frame = test::random_frame(random, test::small_camera());
   auto conditioner = Conditioner::create({.downsample = 1});
-  const ConditionedDepth& depth = conditioner->clean(frame.depth);
+  const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, {});
   const StereoSensor sensor(frame.intrinsics, {}, 0.1, 1);
   const auto blocks_of = [&](double max_frame_ms) {
     auto map = RollingMap::create({.voxel_m = 0.1, .size_m = {8, 8, 8}});

@@ -49,7 +49,7 @@ IntegrationTally integrate(RollingMap& map, const Frame& frame, int ratio,
   ConditionOptions condition;
   condition.downsample = ratio;
   auto conditioner = Conditioner::create(condition);
-  const ConditionedDepth& depth = conditioner->clean(frame.depth);
+  const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, {});
   const StereoSensor sensor(frame.intrinsics, SensorOptions{}, kVoxel_m, depth.ratio);
   return (*make_integrator(options))
       ->integrate({depth, frame.intrinsics, frame.T_world_camera, frame_number}, sensor, map);

@@ -69,6 +69,7 @@ MapperConfig base_config() {
   config.depth.downsample = 4;
   config.integrate.integrator = "rays";  // reads ray_method; the parameters below are the other's
   config.depth.min_range_m = 0.4;
+  config.depth.distortion = {0.05, 0.08, 0.1, 0.1, 0.1};
   config.map.size_m = {16.0, 16.0, 6.0};  // 0.6 of it must lie in fewer blocks and still be allowed
   return config;
 }
@@ -83,6 +84,8 @@ TEST(MapperConfig, every_parameter_changes_some_output) {
                [&](const ConfigField& field, const auto&) { keys.emplace_back(field.key); });
   for (const std::string& key : keys) {
     if (key == "integrate.threads" || key == "integrate.max_frame_ms") continue;
+    if (key.starts_with("quality.")) continue;  // tests/pipeline/frame_gate_test.cpp
+    if (key == "integrate.decay_s") continue;   // tests/pipeline/ghost_decay_test.cpp
     MapperConfig config = base_config();
     visit_config(config, [&](const ConfigField& field, auto& value) {
       if (field.key == key) change(field, value);
@@ -106,11 +109,20 @@ TEST(MapperConfig, sharp_fusion_adds_its_steps_behind_the_range_gate) {
   MapperConfig config;
   config.integrate.fusion = "sharp";
   EXPECT_EQ(config.conditioning().steps,
-            (std::vector<std::string>{"range_gate", "lone_pixels", "smooth", "to_centres",
-                                      "near_downsample"}));
+            (std::vector<std::string>{"distortion", "range_gate", "lone_pixels", "smooth",
+                                      "to_centres", "near_downsample"}));
   config.integrate.fusion = "blunt";
   ASSERT_EQ(config.faults().size(), 1U);
   EXPECT_EQ(config.faults().front().where, "integrate.fusion");
+}
+
+TEST(MapperConfig, numbers_of_distortion_that_no_step_reads_are_a_fault) {
+  MapperConfig config;
+  config.depth.steps = {"range_gate"};
+  EXPECT_TRUE(config.faults().empty());
+  config.depth.distortion.x2_per_m = 0.05;
+  ASSERT_EQ(config.faults().size(), 1U);
+  EXPECT_EQ(config.faults().front().where, "depth.steps");
 }
 
 TEST(MapperConfig, an_integrator_is_chosen_by_its_name) {

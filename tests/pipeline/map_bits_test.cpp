@@ -22,9 +22,9 @@ struct Case {
   std::uint64_t hash;
 };
 
-class MapBits : public ::testing::TestWithParam<Case> {};
+class MapBitsOf : public ::testing::TestWithParam<Case> {};
 
-TEST_P(MapBits, are_those_of_every_machine) {
+TEST_P(MapBitsOf, are_those_of_every_machine) {
   MapperConfig config;
   config.map.voxel_m = 0.1;
   config.integrate.integrator = GetParam().integrator;
@@ -41,13 +41,37 @@ TEST_P(MapBits, are_those_of_every_machine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Integrators, MapBits,
+    Integrators, MapBitsOf,
     ::testing::Values(Case{"every_pixel", "projective", "voxel_traversal", 1, 0x2f8b4eb2cd8d7553U},
                       Case{"nearest_of_4_x_4", "projective", "voxel_traversal", 4,
                            0x27577648ceb315edU},
                       Case{"voxel_traversal", "rays", "voxel_traversal", 1, 0x2fac9742b058cfb2U},
                       Case{"line_drawing", "rays", "line_drawing", 1, 0xc99587e92dccb4dbU}),
     [](const auto& test) { return std::string(test.param.name); });
+
+/// With what comes before and after the integrator: the depths of a bent camera straightened, and
+/// belief let go of where nothing is seen.
+TEST(MapBits, are_those_of_every_machine_with_distortion_and_decay) {
+  MapperConfig config;
+  config.map.voxel_m = 0.1;
+  config.depth.distortion = {0.03, 0.05, 0.01, -0.02, 0.01};
+  config.integrate.decay_s = 1.0;
+  for (const int threads : {1, 2}) {
+    config.integrate.threads = threads;
+    auto mapper = Mapper::create(config);
+    ASSERT_TRUE(mapper);
+    test::Random random(12);
+    std::size_t decayed = 0;
+    for (int i = 0; i < 12; ++i) {
+      Frame frame = test::random_frame(random, test::small_camera(163, 121), 2.0);
+      frame.stamp = {100'000'000LL * i};
+      decayed += mapper->integrate(frame).decayed;
+    }
+    EXPECT_GT(decayed, 1000U);
+    const test::MapBits bits = test::bits_of(*mapper);
+    EXPECT_EQ(bits.hash, 0x8c72e5fce5c44e80U) << bits;
+  }
+}
 
 }  // namespace
 }  // namespace swiftlet

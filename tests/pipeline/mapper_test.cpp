@@ -50,7 +50,10 @@ TEST(Mapper, refuses_frames_it_cannot_use_and_leaves_the_map_alone) {
   Frame empty = test::wall_frame(test::small_camera(), 0.0);
   EXPECT_EQ(mapper.integrate(empty).verdict, FrameVerdict::kNoReadings);
   EXPECT_EQ(mapper.integrate(test::wall_frame(test::small_camera(), 65.535)).verdict,
-            FrameVerdict::kNoReadings);
+            FrameVerdict::kSaturated);
+  EXPECT_EQ(mapper.integrate(test::wall_frame(test::small_camera(), 15.0)).verdict,
+            FrameVerdict::kNoReadings)
+      << "beyond max_range_m";
 
   Frame wrong_size = test::wall_frame(test::small_camera(), 1.0);
   wrong_size.depth.raw.resize(20, 20, 1000);
@@ -73,6 +76,9 @@ TEST(Mapper, allocates_nothing_after_warm_up_even_when_the_window_moves_and_read
     config.map.size_m = {6, 6, 4};
     config.integrate.integrator = integrator;
     config.integrate.fusion = fusion;
+    config.integrate.decay_s = 0.5;
+    config.depth.distortion = {0.01, 0.01, 0.0, 0.0, 0.0};
+    config.quality.max_at_one_value = 0.9;
     Mapper mapper = new_mapper(config);
     const MapReader reader = mapper.reader();
     std::vector<Frame> frames;
@@ -82,12 +88,22 @@ TEST(Mapper, allocates_nothing_after_warm_up_even_when_the_window_moves_and_read
                                                                Eigen::Vector3d(0.3 * i, 0.0, 0.0));
       frames.push_back(std::move(frame));
     }
-    for (const Frame& frame : frames) mapper.integrate(frame);
+    Stamp now;
+    const auto fly = [&](Frame& frame) {
+      frame.stamp = now = now + std::chrono::milliseconds(33);
+      return mapper.integrate(frame);
+    };
+    for (Frame& frame : frames) fly(frame);
 
-    std::size_t shifts = 0;
+    std::size_t shifts = 0, decayed = 0;
     const test::AllocationCount allocations;
-    for (const Frame& frame : frames) shifts += mapper.integrate(frame).shift.moved ? 1 : 0;
+    for (Frame& frame : frames) {
+      const MapUpdate update = fly(frame);
+      shifts += update.shift.moved ? 1 : 0;
+      decayed += update.decayed;
+    }
     const std::size_t made = allocations.so_far();
+    EXPECT_GT(decayed, 0U);
     EXPECT_EQ(made, 0U) << integrator << ", " << fusion;
     EXPECT_GT(shifts, 5U);
     EXPECT_TRUE(reader.latest());

@@ -152,7 +152,7 @@ TEST(SceneFile, names_the_scenes_there_are_when_it_does_not_know_one) {
   const auto scene = load_scene("appartment");
   ASSERT_FALSE(scene);
   EXPECT_EQ(scene.error().code, ErrorCode::kNotFound);
-  EXPECT_THAT(scene.error().text(), HasSubstr("aisle, apartment, corridor_loop"));
+  EXPECT_THAT(scene.error().text(), HasSubstr("aisle, apartment, calibration, corridor_loop"));
   EXPECT_THAT(load_scene("no/such.yaml").error().text(), HasSubstr("no/such.yaml"));
 }
 

@@ -123,6 +123,20 @@ TEST(StereoCamera, without_noise_measures_plane_and_cylinder_exactly) {
   EXPECT_GT(on_column, 100);
 }
 
+TEST(StereoCamera, with_a_barrel_of_a_tenth_sees_the_edges_of_a_wall_at_1_4_m_a_tenth_too_far) {
+  StereoOptions options = d435_strip(241);
+  options.is_ideal = true;
+  options.barrel = 0.1;
+  const DepthImage depth = capture(scene_of({wall_at(1.4)}), options);
+  EXPECT_NEAR(depth.depth_m(options.width / 2, 120), 1.4, 1e-3);
+  EXPECT_NEAR(depth.depth_m(0, 120), 1.1 * 1.4, 1e-3);
+  EXPECT_NEAR(depth.depth_m(options.width - 1, 120), 1.1 * 1.4, 1e-3);
+  EXPECT_GT(depth.depth_m(0, 0), 1.1 * 1.4) << "the corners are farther from the axis";
+  // An error of disparity: twice the distance, about twice the share.
+  const DepthImage far = capture(scene_of({wall_at(2.8)}), options);
+  EXPECT_NEAR(far.depth_m(0, 120) / 2.8, 1.0 / (1.0 - 2.0 * (1.0 - 1.0 / 1.1)), 2e-3);
+}
+
 TEST(StereoCamera, gives_the_same_bytes_for_the_same_seed_on_any_number_of_threads) {
   const Scene scene = scene_of({wall_at(3), {"box", Box{{2, 0, 0}, {0.2, 0.5, 0.1}}}}, 0.4);
   const StereoOptions options = d435_strip(33);

@@ -73,7 +73,7 @@ class AgreementCheck {
         observations_(reference_map_.window().block_count() * kBlockVoxels) {}
 
   void add(const Frame& frame) {
-    const ConditionedDepth& depth = conditioner_.clean(frame.depth);
+    const ConditionedDepth& depth = conditioner_.clean(frame.depth, frame.intrinsics, {});
     const StereoSensor sensor(frame.intrinsics, options_, candidate_map_.voxel_m(), 1);
     const DepthView view{depth, frame.intrinsics, frame.T_world_camera, frames_++};
     const auto a = candidate_->integrate(view, sensor, candidate_map_);

@@ -81,7 +81,7 @@ Action declare_experiment(CLI::App& parser) {
   parser.add_option("NAME", o->name, "one of 'swiftlet list experiments', or all")
       ->type_name("")
       ->capture_default_str();
-  parser.add_option("-o,--out", o->out, "folder for report.html, .csv and .svg")
+  parser.add_option("-o,--out", o->out, "folder for report.html, .csv, .svg and .png")
       ->type_name("FOLDER")
       ->capture_default_str();
   parser.add_flag("--json", o->as_json, "the results as one JSON object, for machines");

@@ -16,7 +16,8 @@
   X(bench, "measure how fast maps are built, beside OctoMap") \
   X(score, "measure how right maps are, beside OctoMap")      \
   X(experiment, "repeat the experiments of the thesis")       \
-  X(characterize, "measure the noise of a depth camera")      \
+  X(characterize, "measure noise and drop-outs of a camera")  \
+  X(calibrate, "straighten the depths of a bent camera")      \
   X(check, "look for faults in map files and config files")   \
   X(list, "list every source, method, format, view, parameter")
 

@@ -59,14 +59,22 @@ struct ExperimentRun {
   double seconds = 0.0;
 };
 
-/// Writes FOLDER/NAME.csv and NAME.gp for a figure and, with gnuplot, NAME.svg, black on white.
+/// Writes FOLDER/NAME.csv and NAME.gp for a figure and, with gnuplot, NAME.svg and NAME.png, black
+/// on white.
 /// Returns the SVG; empty without gnuplot. Errors: kIo.
 [[nodiscard]] Expected<std::string> draw_figure(const Figure& figure, const std::string& folder);
+
+/// What stands above a report.
+struct ReportHead {
+  std::string title = "Experiments of the thesis";
+  std::string verdict = "reproduced, on the simulated rig";  ///< "3 of 7 ..."
+  std::string column = "experiment";                         ///< what its entries are
+};
 
 /// Writes FOLDER/report.html, one page that needs nothing else, and draws all figures.
 /// Returns whether there was a gnuplot to draw with. Errors: kIo.
 [[nodiscard]] Expected<bool> write_report(std::span<const ExperimentRun> runs,
-                                          const std::string& folder);
+                                          const std::string& folder, const ReportHead& head = {});
 
 /// {"experiments": [{"name", "passed", "expected", "got"}]}, one entry a check.
 [[nodiscard]] nlohmann::ordered_json experiments_json(std::span<const ExperimentRun> runs);

@@ -71,15 +71,20 @@ std::string plots_of(const Figure& figure, std::string& data) {
   return plots + "\n";
 }
 
-std::string script_of(const Figure& figure, const std::string& svg) {
+/// The SVG, and the same as PNG where this gnuplot can.
+std::string script_of(const Figure& figure, const std::string& base) {
   std::string data;
   const std::string plots = plots_of(figure, data);
   return fmt::format(
       "set terminal svg size 720,440 dynamic font 'sans-serif,13' background rgb 'white'\n"
-      "set output '{}'\nset title '{}'\nset xlabel '{}'\nset ylabel '{}'\nset grid lc rgb "
-      "'#a0a0a0'\nset key outside bottom center horizontal\nset border 3\nset tics nomirror\n"
-      "$data << END_OF_DATA\n{}END_OF_DATA\n{}",
-      svg, figure.title, figure.x_label, figure.y_label, data, plots);
+      "set output '{0}.svg'\nset title '{1}'\nset xlabel '{2}'\nset ylabel '{3}'\nset grid lc rgb "
+      "'#a0a0a0'\nset key outside bottom center horizontal\nset bmargin 5.5\nset border 3\nset "
+      "tics nomirror\n"
+      "$data << END_OF_DATA\n{4}END_OF_DATA\n{5}"
+      "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {{\n"
+      "set terminal pngcairo size 1440,880 fontscale 1.9 linewidth 1.6 background rgb 'white'\n"
+      "set output '{0}.png'\nreplot\n}}\n",
+      base, figure.title, figure.x_label, figure.y_label, data, plots);
 }
 
 /// Runs gnuplot on a script; false if there is none or it fails.
@@ -100,7 +105,7 @@ Expected<std::string> draw_figure(const Figure& figure, const std::string& folde
   if (auto written = write_text(base.string() + ".csv", csv_of(figure)); !written)
     return forward_error(std::move(written));
   const std::string svg = base.string() + ".svg", script = base.string() + ".gp";
-  if (auto written = write_text(script, script_of(figure, svg)); !written)
+  if (auto written = write_text(script, script_of(figure, base.string())); !written)
     return forward_error(std::move(written));
   if (!plot(script)) return std::string{};
   std::ifstream file(svg, std::ios::binary);

@@ -18,7 +18,7 @@ constexpr const char* kHead = R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
-<title>Swiftlet: experiments</title>
+<title>Swiftlet</title>
 <style>
 :root { --paper: #fff; --ink: #1a1d21; --soft: #5b6470; --line: #d9dee4; --card: #f6f8fa;
   --good: #116329; --bad: #a40e26; }
@@ -31,7 +31,7 @@ h1 { font-size: 1.7rem; margin: 0; } h2 { font-size: 1.2rem; margin: 3rem 0 .2re
 p { margin: .3rem 0 1rem; color: var(--soft); }
 .table { overflow-x: auto; } table { border-collapse: collapse; width: 100%; }
 th, td { text-align: left; vertical-align: top; padding: .45rem .9rem .45rem 0;
-  border-bottom: 1px solid var(--line); }
+  border-bottom: 1px solid var(--line); } td.what { overflow-wrap: anywhere; }
 th { font-weight: 600; color: var(--soft); font-size: .85rem; }
 td.verdict { white-space: nowrap; font-weight: 600; }
 .passed { color: var(--good); } .failed { color: var(--bad); }
@@ -64,13 +64,17 @@ std::string verdict(bool is_passed) {
                    : R"(<td class="verdict failed">&#10007; failed</td>)";
 }
 
-std::string overview(std::span<const ExperimentRun> runs) {
-  std::string html =
-      R"(<div class="table"><table><tr><th>experiment</th><th>what it shows</th><th></th><th>took</th></tr>)";
+std::string overview(std::span<const ExperimentRun> runs, const std::string& column) {
+  const bool is_timed =
+      std::ranges::any_of(runs, [](const ExperimentRun& run) { return run.seconds > 0.0; });
+  std::string html = fmt::format(
+      R"(<div class="table"><table><tr><th>{}</th><th>what it shows</th><th></th><th>{}</th></tr>)",
+      column, is_timed ? "took" : "");
   for (const ExperimentRun& run : runs) {
+    const std::string took = is_timed ? fmt::format("{:.1f} s", run.seconds) : "";
     html += fmt::format(
-        R"(<tr><td><a href="#{0}">{0}</a></td><td>{1}</td>{2}<td class="verdict">{3:.1f} s</td></tr>)",
-        run.name, escaped(run.summary), verdict(run.result.is_passed()), run.seconds);
+        R"(<tr><td><a href="#{0}">{0}</a></td><td class="what">{1}</td>{2}<td class="verdict">{3}</td></tr>)",
+        run.name, escaped(run.summary), verdict(run.result.is_passed()), took);
   }
   return html + "</table></div>\n";
 }
@@ -87,16 +91,16 @@ std::string checks_table(const ExperimentResult& result) {
 
 }  // namespace
 
-Expected<bool> write_report(std::span<const ExperimentRun> runs, const std::string& folder) {
+Expected<bool> write_report(std::span<const ExperimentRun> runs, const std::string& folder,
+                            const ReportHead& head) {
   const auto passed =
       std::ranges::count_if(runs, [](const ExperimentRun& r) { return r.result.is_passed(); });
   const Machine machine = this_machine();
   std::string html = kHead;
-  html += fmt::format(
-      "<h1>Experiments of the thesis</h1>\n<p>{} of {} reproduced, on the simulated rig; swiftlet "
-      "{}, {}, {} cores</p>\n",
-      passed, runs.size(), machine.swiftlet, escaped(machine.cpu), machine.cores);
-  html += overview(runs);
+  html += fmt::format("<h1>{}</h1>\n<p>{} of {} {}; swiftlet {}, {}, {} cores</p>\n",
+                      escaped(head.title), passed, runs.size(), escaped(head.verdict),
+                      machine.swiftlet, escaped(machine.cpu), machine.cores);
+  html += overview(runs, head.column);
   bool has_figures = true;
   for (const ExperimentRun& run : runs) {
     html += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n", run.name, escaped(run.summary));

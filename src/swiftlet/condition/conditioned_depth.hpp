@@ -5,8 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "swiftlet/base/image.hpp"
+#include "swiftlet/frame/intrinsics.hpp"
 
 namespace swiftlet {
 
@@ -22,7 +24,8 @@ struct PixelOrigin {
 /// units, 0 = no reading.
 struct ConditionedDepth {
   Image<std::uint16_t> raw;
-  float unit_m = 0.001F;  ///< metres per device unit
+  float unit_m = 0.001F;                    ///< metres per device unit
+  std::optional<PinholeIntrinsics> lens{};  ///< of the full image; nullopt: not told
   int ratio = 1;  ///< n: how many pixels of the full image one pixel stands for, along each side
   Image<PixelOrigin> origin;  ///< same shape as raw; empty while ratio is 1
   /// Deviation of a reading as the sensor made it, over the square of its depth [1/m]: s / (f B).

@@ -18,10 +18,17 @@ class Conditioner {
   /// Errors: kUsage for a step that does not exist, naming those that do.
   [[nodiscard]] static Expected<Conditioner> create(const ConditionOptions& options);
 
-  /// The result belongs to the conditioner and is good until the next call. `noise_per_m` and
-  /// `half_cell_m`: of the sensor and the map, see ConditionedDepth.
-  [[nodiscard]] const ConditionedDepth& clean(const DepthImage& depth, double noise_per_m = 0.004,
-                                              double half_cell_m = 0.0);
+  /// What the steps may know besides the image; see ConditionedDepth.
+  struct Setting {
+    double noise_per_m = 0.004;
+    double half_cell_m = 0.0;
+  };
+
+  /// The result belongs to the conditioner and is good until the next call.
+  /// REQUIRES: the image has the size of its intrinsics.
+  [[nodiscard]] const ConditionedDepth& clean(const DepthImage& depth,
+                                              const PinholeIntrinsics& lens,
+                                              const Setting& setting);
 
  private:
   Conditioner() = default;

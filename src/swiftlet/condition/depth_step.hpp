@@ -10,15 +10,17 @@
 
 #include "swiftlet/base/registry.hpp"
 #include "swiftlet/condition/conditioned_depth.hpp"
+#include "swiftlet/condition/depth_distortion.hpp"
 
 namespace swiftlet {
 
 /// Everything that the depth steps can be told.
 struct ConditionOptions {
-  std::vector<std::string> steps{"range_gate", "near_downsample"};  ///< names, in order
+  std::vector<std::string> steps{"distortion", "range_gate", "near_downsample"};  ///< in order
   double min_range_m = 0.2;  ///< nearer readings are dropped: below the D435's shortest distance
   double max_range_m = 10.0;
   int downsample = 1;  ///< n of the near-preserving reduction; 1 keeps every pixel
+  DepthDistortion distortion{};
 };
 
 /// One step from raw depth towards trustworthy depth. A step may drop or move readings, never

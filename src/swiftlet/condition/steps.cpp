@@ -7,6 +7,7 @@
 
 // A depth step is one file, which ends in make_<name>(), and one line here.
 #define SWIFTLET_DEPTH_STEPS(X)                                                                   \
+  X(distortion, "straightens depths that a bent stereo pair bends; see `swiftlet calibrate`")     \
   X(range_gate, "drops readings outside depth.min_range_m .. depth.max_range_m")                  \
   X(lone_pixels, "drops readings that too few of their neighbours bear out: edges, mismatches")   \
   X(smooth, "replaces readings by the mean of their neighbours within noise")                     \

@@ -4,6 +4,7 @@
 #include "swiftlet/eval/wall_noise.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "swiftlet/base/contract.hpp"
@@ -35,6 +36,7 @@ std::optional<WallNoise> measure_wall(const DepthImage& depth, const PinholeIntr
   });
   if (wall.readings < kFewest) return std::nullopt;
   const Eigen::Vector3d n = A.ldlt().solve(b);
+  wall.tilt_rad = std::acos(std::clamp(std::abs(n.z()) / n.norm(), 0.0, 1.0));
   wall.distance_m /= static_cast<double>(wall.readings);
   double squares = 0.0;
   for_each_reading([&](const Eigen::Vector3d& ray, double z_m) {

@@ -15,6 +15,7 @@ namespace swiftlet::eval {
 struct WallNoise {
   double distance_m = 0.0;  ///< of the wall, along the optical axis
   double rms_m = 0.0;       ///< of the depths about the plane through them
+  double tilt_rad = 0.0;    ///< of its normal against the optical axis
   std::size_t readings = 0;
 };
 

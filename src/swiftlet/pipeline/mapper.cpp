@@ -32,12 +32,15 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
     : config_(config),
       archive_(archive),
       map_(std::move(map)),
+      gate_(std::make_unique<FrameGate>(config.quality)),
       conditioner_(std::move(conditioner)),
       integrator_(std::move(integrator)) {
   if (config.integrate.fusion == kSharpFusion) thin_.emplace();
+  if (config.integrate.decay_s > 0.0)
+    decay_ = std::make_unique<GhostDecay>(config.integrate.decay_s);
 }
 
-std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) const {
+std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) {
   const auto& raw = frame.depth.raw;
   if (raw.width() != frame.intrinsics.width() || raw.height() != frame.intrinsics.height()) {
     return FrameVerdict::kSizeMismatch;
@@ -45,21 +48,21 @@ std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) const {
   if (frame.T_world_camera.translation().cwiseAbs().maxCoeff() >= RollingMap::kMaxCoordinate_m) {
     return FrameVerdict::kPoseOutOfRange;
   }
-  return std::nullopt;
+  return gate_->refusal(frame);
 }
 
 MapUpdate Mapper::integrate(const Frame& frame) {
   MapUpdate update;
+  StageTimer timer(update.times);
   if (const auto verdict = refusal(frame)) {
     update.verdict = *verdict;
     return update;
   }
-  StageTimer timer(update.times);
   SensorOptions instrument = config_.sensor;
   if (frame.baseline_m > 0.0) instrument.baseline_m = frame.baseline_m;
   const StereoNoise noise{frame.intrinsics.fx(), instrument.baseline_m, instrument.subpixel_px};
   const ConditionedDepth& depth =
-      conditioner_.clean(frame.depth, noise.sigma_m(1.0), 0.5 * map_.voxel_m());
+      conditioner_.clean(frame.depth, frame.intrinsics, {noise.sigma_m(1.0), 0.5 * map_.voxel_m()});
   timer.finish(Stage::kCondition);
   if (!has_readings(depth)) {
     update.verdict = FrameVerdict::kNoReadings;
@@ -78,6 +81,11 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   if (thin_) thin_->collect(view, map_);
   update.tally = integrator_->integrate(view, sensor, map_);
   if (thin_) thin_->protect(map_);
+  if (decay_) {
+    const double sigma_per_z2 = sensor.noise().sigma_m(1.0);
+    update.decayed = decay_->apply(
+        view, {frame.stamp, frame.camera, sigma_per_z2, config_.depth.max_range_m}, map_);
+  }
   ++frame_count_;
   timer.finish(Stage::kIntegrate);
   update.was_published = map_.publish(frame_count_);

@@ -9,29 +9,22 @@
 
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/frame/frame.hpp"
+#include "swiftlet/integrate/ghost_decay.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/thin_hits.hpp"
 #include "swiftlet/map/rolling_map.hpp"
+#include "swiftlet/pipeline/frame_gate.hpp"
 #include "swiftlet/pipeline/mapper_config.hpp"
 #include "swiftlet/pipeline/stage_times.hpp"
 
 namespace swiftlet {
-
-/// What became of a frame. Refused frames leave the map as it was.
-enum class FrameVerdict : std::uint8_t {
-  kIntegrated,
-  kNoReadings,      ///< no valid pixel within range
-  kSizeMismatch,    ///< the image is not of the size that its intrinsics speak of
-  kPoseOutOfRange,  ///< farther than 1000 km from the origin
-};
-inline constexpr std::array<std::string_view, 4> kFrameVerdictNames{
-    "integrated", "no_readings", "size_mismatch", "pose_out_of_range"};
 
 /// What one call of integrate() did.
 struct MapUpdate {
   FrameVerdict verdict = FrameVerdict::kIntegrated;
   RollingMap::Shift shift;
   IntegrationTally tally;
+  std::size_t decayed = 0;    ///< cells that lost belief because nothing is seen where they are
   bool was_published = true;  ///< false: readers hold every snapshot slot, so they see an older map
   StageTimes times;
 };
@@ -64,20 +57,23 @@ class Mapper {
   [[nodiscard]] std::uint64_t frame_count() const { return frame_count_; }
   /// The window and the integrator's scratch [bytes].
   [[nodiscard]] std::size_t memory_bytes() const {
-    return map_.memory_bytes() + integrator_->memory_bytes();
+    const std::size_t decay = decay_ ? decay_->memory_bytes() : 0;
+    return map_.memory_bytes() + integrator_->memory_bytes() + decay;
   }
 
  private:
   Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map, Conditioner conditioner,
          std::unique_ptr<Integrator> integrator);
-  [[nodiscard]] std::optional<FrameVerdict> refusal(const Frame& frame) const;
+  [[nodiscard]] std::optional<FrameVerdict> refusal(const Frame& frame);
 
   MapperConfig config_;
   BlockArchive* archive_;
   RollingMap map_;
+  std::unique_ptr<FrameGate> gate_;
   Conditioner conditioner_;
   std::unique_ptr<Integrator> integrator_;
-  std::optional<ThinHits> thin_;  // with sharp fusion only
+  std::optional<ThinHits> thin_;       // with sharp fusion only
+  std::unique_ptr<GhostDecay> decay_;  // null: never
   std::uint64_t frame_count_ = 0;
 };
 

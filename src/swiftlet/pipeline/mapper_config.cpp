@@ -72,6 +72,12 @@ std::vector<Error> MapperConfig::faults() const {
                       "known are: thesis, sharp"});
   }
   keep_fault(faults, "integrate.ray_method", find_ray_method(integrate.ray_method));
+  const bool is_straightened = std::ranges::find(depth.steps, "distortion") != depth.steps.end();
+  if (faults.empty() && !depth.distortion.is_none() && !is_straightened) {
+    faults.push_back({ErrorCode::kInvalidConfig, "depth.steps",
+                      "the step 'distortion' is missing, so the numbers of distortion do nothing",
+                      "put it first, or leave depth.steps out"});
+  }
   if (faults.empty()) keep_fault(faults, "map", RollingMap::create(map));
   return faults;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "swiftlet/condition/depth_step.hpp"
+#include "swiftlet/condition/frame_quality.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/map/log_odds.hpp"
 #include "swiftlet/map/rolling_map.hpp"
@@ -26,6 +27,7 @@ inline constexpr std::string_view kSharpFusion = "sharp";
 /// Every parameter of the mapper, with its default.
 struct MapperConfig {
   RollingMap::Options map;
+  QualityLimits quality;
   ConditionOptions depth;
   SensorOptions sensor;
   IntegrateOptions integrate;
@@ -60,6 +62,23 @@ void visit_config(Config& c, Visit&& visit) {
                     "how far the vehicle may leave the middle before the window moves (x, y, z)",
                     0.01, 1000.0},
         c.map.trigger_m);
+  visit(ConfigField{"quality.min_valid", "frames with a smaller share of valid pixels are refused",
+                    0.0, 1.0},
+        c.quality.min_valid);
+  visit(ConfigField{"quality.max_saturated",
+                    "likewise with a larger share of readings at the end of the scale; 1: never",
+                    0.0, 1.0},
+        c.quality.max_saturated);
+  visit(ConfigField{"quality.max_at_one_value",
+                    "likewise with a larger share of readings of one value; 1: never", 0.0, 1.0},
+        c.quality.max_at_one_value);
+  visit(ConfigField{"quality.max_smeared",
+                    "likewise with a larger share of blurred depth edges; 1: never", 0.0, 1.0},
+        c.quality.max_smeared);
+  visit(ConfigField{"quality.max_frozen",
+                    "likewise after so many equal images from a camera that moves; 0: never", 0,
+                    1000},
+        c.quality.max_frozen);
   visit(ConfigField{"depth.steps", "conditioning steps, in order"}, c.depth.steps);
   visit(ConfigField{"depth.min_range_m", "nearer readings are dropped", 0.0, 100.0},
         c.depth.min_range_m);
@@ -68,6 +87,18 @@ void visit_config(Config& c, Visit&& visit) {
   visit(ConfigField{"depth.downsample",
                     "n: every n x n pixels become their nearest reading; 1 keeps all", 1, 64},
         c.depth.downsample);
+  visit(
+      ConfigField{
+          "distortion.x2_per_m",
+          "depth error over X^2, X to the right of the optical axis; see `swiftlet calibrate`",
+          -10.0, 10.0},
+      c.depth.distortion.x2_per_m);
+  visit(ConfigField{"distortion.y2_per_m", "depth error over Y^2, Y down", -10.0, 10.0},
+        c.depth.distortion.y2_per_m);
+  visit(ConfigField{"distortion.x1", "depth error over X", -1.0, 1.0}, c.depth.distortion.x1);
+  visit(ConfigField{"distortion.y1", "depth error over Y", -1.0, 1.0}, c.depth.distortion.y1);
+  visit(ConfigField{"distortion.offset_m", "depth error in the middle of the image", -1.0, 1.0},
+        c.depth.distortion.offset_m);
   visit(ConfigField{"sensor.baseline_m", "distance of the stereo pair", 0.001, 10.0},
         c.sensor.baseline_m);
   visit(ConfigField{"sensor.subpixel_px",
@@ -99,6 +130,12 @@ void visit_config(Config& c, Visit&& visit) {
                     "once fusing took so long, far blocks wait for the next frame; 0: never", 0.0,
                     1000.0},
         c.integrate.max_frame_ms);
+  visit(
+      ConfigField{"integrate.decay_s",
+                  "in so many seconds an occupied cell becomes unknown where the camera looks and "
+                  "sees nothing, not even a background; 0: never",
+                  0.0, 3600.0},
+      c.integrate.decay_s);
   visit(ConfigField{"occupancy.free_below", "cells below this byte are free", 1, 127},
         c.occupancy.free_below);
   visit(ConfigField{"occupancy.occupied_from", "cells from this byte on are occupied", 128, 255},

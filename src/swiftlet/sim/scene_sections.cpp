@@ -72,7 +72,7 @@ std::vector<Waypoint> read_waypoints(YamlSection& flight, const Pace& pace) {
 void read_camera(YamlSection& scene, StereoOptions& camera) {
   auto section = scene.section("camera");
   if (!section) return;
-  constexpr Limits kSide{1.0, 4096.0};
+  constexpr Limits kSide{1.0, 4096.0}, kBarrel{-0.5, 0.5};
   const StereoOptions d435 = camera;
   camera.width = static_cast<int>(section->number("width_px", kSide, d435.width));
   camera.height = static_cast<int>(section->number("height_px", kSide, d435.height));
@@ -88,6 +88,7 @@ void read_camera(YamlSection& scene, StereoOptions& camera) {
       section->number("disparity_step_px", kPositive, d435.disparity_step_px);
   camera.mixed_pixel_chance =
       section->number("mixed_pixel_chance", kFraction, d435.mixed_pixel_chance);
+  camera.barrel = section->number("barrel", kBarrel, d435.barrel);
   section->finish();
 }
 

@@ -161,6 +161,17 @@ float StereoCamera::mixed_disparity(int u, int v, float draw, float share) const
   return here;
 }
 
+/// The error of disparity: StereoOptions::barrel, told for the middle of the left edge at 1.4 m.
+float StereoCamera::bend_px(int u, int v) const {
+  if (options_.barrel == 0.0) return 0.0F;
+  constexpr double kToldAt_m = 1.4;
+  const Eigen::Vector3d ray = intrinsics_.back_project(u, v, 1.0);
+  const double edge = intrinsics_.back_project(0, intrinsics_.cy(), 1.0).x();
+  const double disparity_px = intrinsics_.fx() * options_.baseline_m / kToldAt_m;
+  const double at_edge_px = disparity_px * (1.0 - 1.0 / (1.0 + options_.barrel));
+  return static_cast<float>(-at_edge_px * ray.head<2>().squaredNorm() / (edge * edge));
+}
+
 std::uint16_t StereoCamera::reading_mm(float disparity_px) const {
   if (disparity_px <= 0.0F) return 0;
   const double z_m = intrinsics_.fx() * options_.baseline_m / static_cast<double>(disparity_px);
@@ -175,12 +186,13 @@ void StereoCamera::report_row(std::uint64_t frame_number, int v, DepthImage& dep
   for (int u = 0; u < options_.width; ++u) {
     if (is_matched_.at(u, v) == 0) continue;
     if (options_.is_ideal) {
-      depth.raw.at(u, v) = reading_mm(disparity_px_.at(u, v));
+      depth.raw.at(u, v) = reading_mm(disparity_px_.at(u, v) + bend_px(u, v));
       continue;
     }
     const float disparity_px = mixed_disparity(u, v, random.uniform(counter(Draw::kMixes, u, v)),
                                                random.uniform(counter(Draw::kMixture, u, v))) +
-                               noise_px * random.gaussian(counter(Draw::kNoise, u, v));
+                               noise_px * random.gaussian(counter(Draw::kNoise, u, v)) +
+                               bend_px(u, v);
     depth.raw.at(u, v) = reading_mm(std::round(disparity_px / step_px) * step_px);
   }
 }

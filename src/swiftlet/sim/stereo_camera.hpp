@@ -19,7 +19,8 @@ namespace swiftlet::sim {
 /// it becomes millimetres: hence sigma_z = z^2 s / (f B) (method 3). A pixel has no reading (0) if
 /// the right imager, one baseline to the right, cannot see its point (shadows left of near
 /// objects), if its surface is blank or grazing, or outside the range. Pixels at depth edges may
-/// fall between fore- and background.
+/// fall between fore- and background. A camera with a barrel measures too small a disparity away
+/// from the optical axis.
 /// Repeatable: noise depends on (seed, frame, pixel) alone, not on the number of threads.
 /// Thread safety: one capture at a time.
 class StereoCamera {
@@ -53,6 +54,7 @@ class StereoCamera {
   void report_row(std::uint64_t frame_number, int v, DepthImage& depth) const;
   [[nodiscard]] bool is_matched(const Hit& hit, std::uint64_t frame_number, int u, int v) const;
   [[nodiscard]] float mixed_disparity(int u, int v, float draw, float share) const;
+  [[nodiscard]] float bend_px(int u, int v) const;
   [[nodiscard]] std::uint16_t reading_mm(float disparity_px) const;
 
   StereoOptions options_;

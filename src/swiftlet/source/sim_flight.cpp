@@ -65,6 +65,7 @@ Expected<SimFlight> read_sim_flight(std::string_view rest) {
   }
   scene->seed = options->seed.value_or(scene->seed);
   scene->camera.rate_hz = options->rate_hz.value_or(scene->camera.rate_hz);
+  scene->camera.barrel = options->barrel.value_or(scene->camera.barrel);
   if (!options->has_noise) make_ideal(*scene);
   if (!options->rig_file) place_cameras(*scene, options->cameras, options->rig);
   SimFlight flight{std::move(*scene), std::move(*options), {}};

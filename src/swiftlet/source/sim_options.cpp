@@ -14,7 +14,8 @@ namespace swiftlet {
 namespace {
 
 constexpr std::string_view kOwnOptions =
-    "seed=N, noise=on|off, start=SECONDS, frames=N, rate=HZ, cameras=1..8, shuffle=N, fault=NAME, "
+    "seed=N, noise=on|off, start=SECONDS, frames=N, rate=HZ, barrel=SHARE, cameras=1..8, "
+    "shuffle=N, fault=NAME, "
     "fault_at=SECONDS";
 
 /// A time since the start; false if it cannot be meant.
@@ -32,6 +33,10 @@ bool apply(std::string_view key, std::string_view value, SimOptions& options) {
   if (key == "rate") {
     options.rate_hz = number_from<double>(value);
     return options.rate_hz && *options.rate_hz >= 0.1 && *options.rate_hz <= 1000.0;
+  }
+  if (key == "barrel") {
+    options.barrel = number_from<double>(value);
+    return options.barrel && *options.barrel >= -0.5 && *options.barrel <= 0.5;
   }
   if (key == "fault") return !(options.fault = value)->empty();
   if (key == "fault_at") return apply_time(value, options.fault_at);

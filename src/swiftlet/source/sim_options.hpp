@@ -21,6 +21,7 @@ struct SimOptions {
   Nanoseconds start{0};
   std::optional<std::size_t> frames;
   std::optional<double> rate_hz;  // of the depth camera, instead of the scene's
+  std::optional<double> barrel;   // of the depth camera, instead of the scene's
   std::size_t cameras = 1;
   std::optional<std::uint64_t> shuffle;  // order of arrival within a period of the cameras
   std::optional<std::string> fault;

@@ -16,6 +16,7 @@ namespace swiftlet {
 ///   start=SECONDS  switches the rig on that far into the flight (default: 0)
 ///   frames=N       at most N depth images (default: to the end of the flight)
 ///   rate=HZ        depth images a second (default: the scene's)
+///   barrel=SHARE   a bent stereo pair, see sim::StereoOptions::barrel (default: the scene's)
 ///   cameras=N      that many, evenly around the body, the first is the scene's (default: 1)
 ///   shuffle=N      images of one period arrive in an order drawn from this seed
 ///   fault=NAME     something goes wrong with the poses, see sim/pose_faults.cpp

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "swiftlet/condition/frame_quality.hpp"
+#include "swiftlet/frame/frame.hpp"
+#include "swiftlet/pipeline/frame_verdict.hpp"
+
+namespace swiftlet {
+
+/// Refuses depth images that are bad as a whole (method 8): no pixel of them is to be believed.
+///
+/// An image is frozen if it is equal to more than max_frozen before it, pixel by pixel on every
+/// eighth row, while the pose has moved by 0.1 m or 0.05 rad: noise alone changes every image of a
+/// real camera, and one that stands still before a still world does no harm.
+/// Real time: allocates nothing.
+class FrameGate {
+ public:
+  explicit FrameGate(const QualityLimits& limits) : limits_(limits) {}
+
+  /// nullopt for a frame that may be used. REQUIRES: the image has a pixel.
+  [[nodiscard]] std::optional<FrameVerdict> refusal(const Frame& frame);
+
+ private:
+  /// Equal images of a camera, by now.
+  struct Run {
+    std::uint64_t hash = 0;
+    int images = 0;
+    Transform<World, Camera> T_world_camera;  // of the first
+  };
+  [[nodiscard]] bool is_frozen(const Frame& frame);
+
+  QualityLimits limits_;
+  std::array<Run, 256> runs_{};  // by camera
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace swiftlet {
+
+/// What became of a frame. Refused frames leave the map as it was.
+enum class FrameVerdict : std::uint8_t {
+  kIntegrated,
+  kNoReadings,      ///< no valid pixel within range
+  kSizeMismatch,    ///< the image is not of the size that its intrinsics speak of
+  kPoseOutOfRange,  ///< farther than 1000 km from the origin
+  kMostlyEmpty,     ///< hardly any pixel has a reading (quality.min_valid)
+  kSaturated,       ///< most readings are at the end of the scale, or of one value
+  kSmeared,         ///< most depth edges are drawn out: moved during the exposure
+  kFrozen,          ///< the camera moves and its image does not
+};
+inline constexpr std::array<std::string_view, 8> kFrameVerdictNames{
+    "integrated",   "no_readings", "size_mismatch", "pose_out_of_range",
+    "mostly_empty", "saturated",   "smeared",       "frozen"};
+
+}  // namespace swiftlet
