@@ -44,8 +44,8 @@ class Recorded final : public FrameSource {
 };
 
 TEST(RealTime, gives_every_frame_not_before_its_time_to_a_mapper_that_keeps_up) {
-  const auto source = play_in_real_time(std::make_unique<Recorded>(10, false), {.capacity = 10});
   const auto start = Clock::now();
+  const auto source = play_in_real_time(std::make_unique<Recorded>(10, false), {.capacity = 10});
   for (int i = 0; i < 10; ++i) {
     const auto frame = source->next();
     ASSERT_TRUE(frame && *frame);
