@@ -20,20 +20,6 @@ namespace {
 
 constexpr double kLongestExposure_ms = 200.0;
 
-/// Calls the SDK, which reports by exception; none passes.
-template <class Call>
-auto guarded(Call call) -> decltype(call()) {
-  try {
-    return call();
-  } catch (const rs2::error& error) {
-    return fail(ErrorCode::kIo, "realsense",
-                fmt::format("{}: {}", error.get_failed_function(), error.what()),
-                "plug the camera in again, on a USB 3 port");
-  } catch (const std::exception& error) {
-    return fail(ErrorCode::kIo, "realsense", error.what());
-  }
-}
-
 ClockDomain clock_from(rs2_timestamp_domain domain) {
   if (domain == RS2_TIMESTAMP_DOMAIN_SYSTEM_TIME) return ClockDomain::kSystem;
 #if RS2_API_VERSION >= 22200
@@ -99,8 +85,8 @@ bool is_wanted(const rs2::stream_profile& profile, const RealsenseProfile& wante
          profile.fps() == wanted.fps;
 }
 
-Expected<RealsenseStreamPtr> start(const rs2::sensor& sensor, const rs2::stream_profile& profile,
-                                   std::function<void(const rs2::frame&)> take) {
+Expected<LiveStreamPtr> start_stream(const rs2::sensor& sensor, const rs2::stream_profile& profile,
+                                     std::function<void(const rs2::frame&)> take) {
   sensor.open(profile);
   auto stream = std::make_unique<RealsenseStream>(sensor);
   sensor.start([take = std::move(take)](const rs2::frame& frame) { take(frame); });
@@ -122,11 +108,11 @@ DepthImage copied(const rs2::video_frame& video, float unit_m) {
 
 RealsenseStream::~RealsenseStream() {
   // The camera may have been unplugged: then there is nothing to stop.
-  (void)guarded([&]() -> Status {
+  (void)with_sdk([&]() -> Status {
     sensor_.stop();
     return Done{};
   });
-  (void)guarded([&]() -> Status {
+  (void)with_sdk([&]() -> Status {
     sensor_.close();
     return Done{};
   });
@@ -134,7 +120,7 @@ RealsenseStream::~RealsenseStream() {
 
 Expected<RealsenseDepthSensor> prepare_depth(const rs2::device& device,
                                              const RealsenseProfile& wanted) {
-  return guarded([&]() -> Expected<RealsenseDepthSensor> {
+  return with_sdk([&]() -> Expected<RealsenseDepthSensor> {
     std::set<std::string> known;
     for (const rs2::sensor& sensor : device.query_sensors()) {
       for (const rs2::stream_profile& profile : sensor.get_stream_profiles()) {
@@ -159,18 +145,18 @@ Expected<RealsenseDepthSensor> prepare_depth(const rs2::device& device,
   });
 }
 
-Expected<RealsenseStreamPtr> start_depth(const RealsenseDepthSensor& depth, std::uint8_t camera,
-                                         LiveRig& rig) {
-  return guarded([&] {
-    return start(depth.sensor, depth.profile,
-                 [info = depth.info, camera, &rig](const rs2::frame& frame) {
-                   take_depth(frame, info, camera, rig);
-                 });
+Expected<LiveStreamPtr> start_depth(const RealsenseDepthSensor& depth, std::uint8_t camera,
+                                    LiveSink& sink) {
+  return with_sdk([&] {
+    return start_stream(depth.sensor, depth.profile,
+                        [info = depth.info, camera, &sink](const rs2::frame& frame) {
+                          take_depth(frame, info, camera, sink);
+                        });
   });
 }
 
-Expected<RealsenseStreamPtr> start_poses(const rs2::device& device, LiveRig& rig) {
-  return guarded([&]() -> Expected<RealsenseStreamPtr> {
+Expected<LiveStreamPtr> start_poses(const rs2::device& device, LiveSink& sink) {
+  return with_sdk([&]() -> Expected<LiveStreamPtr> {
     for (const rs2::sensor& sensor : device.query_sensors()) {
       for (const rs2::stream_profile& profile : sensor.get_stream_profiles()) {
         if (profile.stream_type() != RS2_STREAM_POSE) continue;
@@ -179,11 +165,11 @@ Expected<RealsenseStreamPtr> start_poses(const rs2::device& device, LiveRig& rig
         set_option(sensor, RS2_OPTION_ENABLE_RELOCALIZATION, 0.0F);
         set_option(sensor, RS2_OPTION_ENABLE_POSE_JUMPING, 0.0F);
 #endif
-        return start(sensor, profile, [&rig](const rs2::frame& frame) {
-          (void)guarded([&]() -> Status {
+        return start_stream(sensor, profile, [&sink](const rs2::frame& frame) {
+          (void)with_sdk([&]() -> Status {
             if (auto pose = frame.as<rs2::pose_frame>())
               take_pose(pose.get_pose_data(), frame.get_timestamp(),
-                        frame.get_frame_timestamp_domain(), rig);
+                        frame.get_frame_timestamp_domain(), sink);
             return Done{};
           });
         });
@@ -195,9 +181,9 @@ Expected<RealsenseStreamPtr> start_poses(const rs2::device& device, LiveRig& rig
 }
 
 void take_depth(const rs2::frame& frame, const RealsenseDepthInfo& info, std::uint8_t camera,
-                LiveRig& rig) {
+                LiveSink& sink) {
   // A frame that cannot be read is one less; the SDK must not see an exception in its callback.
-  (void)guarded([&]() -> Status {
+  (void)with_sdk([&]() -> Status {
     const auto video = frame.as<rs2::video_frame>();
     const auto stamp = stamp_from(frame.get_timestamp() - exposure_lag_ms(frame));
     if (!video || !stamp) return Done{};
@@ -205,14 +191,14 @@ void take_depth(const rs2::frame& frame, const RealsenseDepthInfo& info, std::ui
 #if RS2_API_VERSION >= 23700
     if (const auto depth = frame.as<rs2::depth_frame>()) unit_m = depth.get_units();
 #endif
-    rig.push(DepthFrame{*stamp, copied(video, unit_m), info.intrinsics, camera,
-                        clock_from(frame.get_frame_timestamp_domain())});
+    sink.push(DepthFrame{*stamp, copied(video, unit_m), info.intrinsics, camera,
+                         clock_from(frame.get_frame_timestamp_domain())});
     return Done{};
   });
 }
 
 void take_pose(const rs2_pose& pose, double timestamp_ms, rs2_timestamp_domain domain,
-               LiveRig& rig) {
+               LiveSink& sink) {
   const auto stamp = stamp_from(timestamp_ms);
   if (!stamp) return;
   const auto& q = pose.rotation;
@@ -221,7 +207,7 @@ void take_pose(const rs2_pose& pose, double timestamp_ms, rs2_timestamp_domain d
       from_t265(*stamp, Eigen::Quaterniond(q.w, q.x, q.y, q.z), Eigen::Vector3d(t.x, t.y, t.z),
                 static_cast<std::uint8_t>(std::min(pose.tracker_confidence, 3U)));
   sample.clock = clock_from(domain);
-  rig.push(sample);
+  sink.push(sample);
 }
 
 }  // namespace swiftlet
