@@ -38,7 +38,7 @@ std::vector<Diagnosis> diagnose(const DoctorExam& exam) {
   return all;
 }
 
-std::size_t count(const std::vector<Diagnosis>& all, Severity severity) {
+std::size_t how_many(const std::vector<Diagnosis>& all, Severity severity) {
   return static_cast<std::size_t>(
       std::ranges::count(all, severity, [](const Diagnosis& d) { return d.finding.severity; }));
 }
@@ -50,8 +50,8 @@ void print_text(const DoctorExam& exam, const std::vector<Diagnosis>& all) {
                check, finding.what);
     if (!finding.remedy.empty()) fmt::print("  {:<21} -> {}\n", "", finding.remedy);
   }
-  const std::size_t faults = count(all, Severity::kFault);
-  const std::size_t warnings = count(all, Severity::kWarning);
+  const std::size_t faults = how_many(all, Severity::kFault);
+  const std::size_t warnings = how_many(all, Severity::kWarning);
   fmt::print("{} fault{}, {} warning{}\n", faults, faults == 1 ? "" : "s", warnings,
              warnings == 1 ? "" : "s");
 }
@@ -84,8 +84,8 @@ nlohmann::ordered_json devices_json(const RealsenseSystem& system) {
 
 void print_json(const DoctorExam& exam, const std::vector<Diagnosis>& all) {
   nlohmann::ordered_json json{{"subject", exam.subject},
-                              {"faults", count(all, Severity::kFault)},
-                              {"warnings", count(all, Severity::kWarning)},
+                              {"faults", how_many(all, Severity::kFault)},
+                              {"warnings", how_many(all, Severity::kWarning)},
                               {"findings", nlohmann::ordered_json::array()}};
   for (const auto& [check, finding] : all) {
     json["findings"].push_back(
@@ -113,7 +113,7 @@ Faults doctor(const DoctorOptions& options) {
   if (!exam) return {exam.error()};
   const std::vector<Diagnosis> all = diagnose(*exam);
   options.as_json ? print_json(*exam, all) : print_text(*exam, all);
-  const std::size_t faults = count(all, Severity::kFault);
+  const std::size_t faults = how_many(all, Severity::kFault);
   if (faults == 0) return {};
   return {{ErrorCode::kCorruptInput, "doctor",
            fmt::format("{} fault{} found", faults, faults == 1 ? "" : "s"),

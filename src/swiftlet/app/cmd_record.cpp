@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -15,6 +17,7 @@
 #include "swiftlet/app/progress.hpp"
 #include "swiftlet/app/rig_flags.hpp"
 #include "swiftlet/app/summary.hpp"
+#include "swiftlet/source/address_options.hpp"
 #include "swiftlet/source/realsense.hpp"
 
 namespace swiftlet::app {
@@ -27,10 +30,10 @@ struct RecordOptions {
   double seconds = 0.0;
 };
 
-constexpr std::string_view kKind = "realsense:";
+constexpr std::string_view kLiveKind = "realsense:";
 
 /// Until Ctrl-C or the end of the time. Ends with the files closed.
-std::vector<LiveRecording::Stream> run(LiveRecordingPtr recording, double limit_s) {
+std::vector<LiveRecording::Stream> record_until(LiveRecordingPtr recording, double limit_s) {
   const InterruptGuard interrupt;
   Progress progress(std::nullopt);
   while (!interrupt.is_interrupted() && (limit_s <= 0.0 || progress.elapsed_s() < limit_s)) {
@@ -42,7 +45,21 @@ std::vector<LiveRecording::Stream> run(LiveRecordingPtr recording, double limit_
   return recording->streams();
 }
 
-Faults tell(const std::vector<LiveRecording::Stream>& streams) {
+/// The address that maps the recording with the same rig.
+std::string replay_address(std::string address, std::string_view recorded) {
+  constexpr std::array<std::string_view, 5> kShared{"rig", "pose_axes", "pairing", "on_jump",
+                                                    "pose_offset_ms"};
+  const auto asked = parse_address(recorded, "realsense");
+  if (!asked) return address;
+  for (const auto& [key, value] : asked->options) {
+    if (std::ranges::find(kShared, key) != kShared.end())
+      address = with_option(std::move(address), key, value);
+  }
+  return address;
+}
+
+Faults report_recording(const std::vector<LiveRecording::Stream>& streams,
+                        std::string_view recorded) {
   Faults faults;
   std::string files;
   for (const LiveRecording::Stream& stream : streams) {
@@ -55,21 +72,21 @@ Faults tell(const std::vector<LiveRecording::Stream>& streams) {
       faults.push_back(
           {ErrorCode::kIo, stream.name, "nothing was recorded", "try swiftlet doctor"});
   }
-  fmt::print("replay: swiftlet map bag:{}\n", files);
+  fmt::print("replay: swiftlet map '{}'\n", replay_address("bag:" + files, recorded));
   return faults;
 }
 
 Faults record(const RecordOptions& options) {
   const std::string& source = options.source;
-  const std::string address = source == "realsense" ? std::string(kKind) : source;
-  if (!address.starts_with(kKind)) {
+  const std::string address = source == "realsense" ? std::string(kLiveKind) : source;
+  if (!address.starts_with(kLiveKind)) {
     return {{ErrorCode::kUsage, source, "only live RealSense cameras can be recorded",
              "write realsense, or realsense:SERIAL"}};
   }
-  auto recording =
-      record_realsense(options.rig.added_to(address).substr(kKind.size()), options.out);
+  const std::string rest = options.rig.added_to(address).substr(kLiveKind.size());
+  auto recording = record_realsense(rest, options.out);
   if (!recording) return fault_of(std::move(recording));
-  return tell(run(std::move(*recording), options.seconds));
+  return report_recording(record_until(std::move(*recording), options.seconds), rest);
 }
 
 }  // namespace

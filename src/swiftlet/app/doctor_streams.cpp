@@ -22,7 +22,7 @@ ClockDomain clock_of(const StreamFacts& stream) {
   return static_cast<ClockDomain>(most - stream.clocks.begin());
 }
 
-double milliseconds(Nanoseconds t) { return seconds(t) * 1e3; }
+double in_ms(Nanoseconds t) { return seconds(t) * 1e3; }
 
 void check_mixture(std::string_view who, const StreamFacts& stream,
                    std::vector<Finding>& findings) {
@@ -93,11 +93,11 @@ void check_depth_rate(const DoctorExam& exam, std::vector<Finding>& findings) {
                                       camera.backward, camera.samples),
                           "they are lost (out_of_order); record each camera once"});
     }
-    const bool has_gap = milliseconds(camera.longest_gap) > std::max(200.0, 5.0 * period_ms);
+    const bool has_gap = in_ms(camera.longest_gap) > std::max(200.0, 5.0 * period_ms);
     findings.push_back(
         {has_gap ? Severity::kWarning : Severity::kGood,
          fmt::format("{}: {} images, {:.1f} Hz, longest gap {:.0f} ms", who, camera.samples,
-                     rate_hz, milliseconds(camera.longest_gap)),
+                     rate_hz, in_ms(camera.longest_gap)),
          has_gap ? "a USB port of its own, a shorter cable, or a smaller profile" : ""});
   }
 }
@@ -119,10 +119,10 @@ void check_pose_rate(const DoctorExam& exam, std::vector<Finding>& findings) {
     remedy = "a T265 gives 200 poses a second: share no hub with it, and record all of them";
   if (has_gap)
     remedy = fmt::format("images in gaps above {:.0f} ms are lost (pose_gap): a port of its own",
-                         milliseconds(exam.rig.poses.track.max_gap));
+                         in_ms(exam.rig.poses.track.max_gap));
   findings.push_back({is_slow || has_gap ? Severity::kWarning : Severity::kGood,
                       fmt::format("{} poses, {:.1f} Hz, longest gap {:.0f} ms", poses.samples,
-                                  rate_hz, milliseconds(poses.longest_gap)),
+                                  rate_hz, in_ms(poses.longest_gap)),
                       std::move(remedy)});
 }
 

@@ -80,7 +80,7 @@ class FrameSource {
   [[nodiscard]] virtual const RigOptions* rig() const { return nullptr; }
 
   /// A live source asks this while it waits for a frame, ten times a second; after a true it ends.
-  virtual void stop_when(std::function<bool()> /*is_unwanted*/) {}
+  virtual void stop_when(const std::function<bool()>& /*is_unwanted*/) {}
   /// What has happened to live instruments since the last call.
   [[nodiscard]] virtual std::vector<RigEvent> take_events() { return {}; }
 };

@@ -49,9 +49,7 @@ class LiveRig final : public FrameSource, public LiveSink {
   [[nodiscard]] const FrameTally& tally() const override { return tally_; }
   [[nodiscard]] const RigFacts* facts() const override { return &facts_; }
   [[nodiscard]] const RigOptions* rig() const override { return &options_.rig; }
-  void stop_when(std::function<bool()> is_unwanted) override {
-    is_unwanted_ = std::move(is_unwanted);
-  }
+  void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
   [[nodiscard]] std::vector<RigEvent> take_events() override;
 
  private:

@@ -30,6 +30,7 @@ class ConnectedDevices final : public RealsenseDevices {
     std::vector<RealsenseDevice> found;
     try {
       const rs2::device_list devices = context_.query_devices();
+      // NOLINTNEXTLINE(modernize-loop-convert): taking a device out of the list may throw, too
       for (std::uint32_t i = 0; i < devices.size(); ++i) {
         try {
           const rs2::device device = devices[i];

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <ranges>
 #include <utility>
 
 #include "swiftlet/source/pose_line.hpp"
@@ -136,8 +137,8 @@ class RealsenseRecording final : public LiveRecording {
 
   [[nodiscard]] fs::path file_of(std::string_view kind, std::string_view serial) const {
     const std::lock_guard lock(mutex_);
-    for (auto file = files_.rbegin(); file != files_.rend(); ++file) {
-      if (file->kind == kind && (serial.empty() || file->serial == serial)) return file->path;
+    for (const File& file : std::views::reverse(files_)) {
+      if (file.kind == kind && (serial.empty() || file.serial == serial)) return file.path;
     }
     return {};
   }
@@ -169,7 +170,7 @@ Status claim(const fs::path& folder) {
 
 }  // namespace
 
-Expected<LiveRecordingPtr> record_realsense(RealsenseDevicesPtr devices,
+Expected<LiveRecordingPtr> record_realsense(const RealsenseDevicesPtr& devices,
                                             const RealsenseRequest& request,
                                             const fs::path& folder) {
   if (auto found = survey_realsense(*devices, request); !found)
@@ -188,7 +189,7 @@ Expected<LiveRecordingPtr> record_realsense(std::string_view rest, const fs::pat
   if (!request) return forward_error(std::move(request));
   auto devices = connected_realsense();
   if (!devices) return forward_error(std::move(devices));
-  return record_realsense(std::move(*devices), *request, folder);
+  return record_realsense(*devices, *request, folder);
 }
 
 }  // namespace swiftlet

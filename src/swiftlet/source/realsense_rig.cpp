@@ -97,7 +97,12 @@ Expected<std::unique_ptr<RealsenseRig>> RealsenseRig::start(RealsenseDevicesPtr 
   return rig;
 }
 
-RealsenseRig::~RealsenseRig() { devices_->on_removed({}); }
+RealsenseRig::~RealsenseRig() {
+  devices_->on_removed({});
+  std::unique_ptr<LiveKeeper> keeper;  // its thread may wait for the lock
+  const std::lock_guard lock(mutex_);
+  keeper.swap(keeper_);
+}
 
 std::vector<LiveInstrument> RealsenseRig::instruments() {
   std::vector<LiveInstrument> all;
@@ -123,7 +128,7 @@ rs2::device RealsenseRig::wrapped(const RealsenseDevice& device, std::string_vie
 void RealsenseRig::note_removed(const RealsenseDevices::WasRemoved& was_removed) {
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < taken_.size(); ++i) {
-    if (taken_[i] && was_removed(taken_[i]->device)) keeper_->note_unplugged(i);
+    if (keeper_ && taken_[i] && was_removed(taken_[i]->device)) keeper_->note_unplugged(i);
   }
 }
 

@@ -75,7 +75,7 @@ class RealsenseRig {
 [[nodiscard]] Expected<FrameSourcePtr> open_realsense(RealsenseDevicesPtr devices,
                                                       const RealsenseRequest& request);
 /// See record_realsense().
-[[nodiscard]] Expected<LiveRecordingPtr> record_realsense(RealsenseDevicesPtr devices,
+[[nodiscard]] Expected<LiveRecordingPtr> record_realsense(const RealsenseDevicesPtr& devices,
                                                           const RealsenseRequest& request,
                                                           const std::filesystem::path& folder);
 

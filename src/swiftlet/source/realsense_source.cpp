@@ -99,9 +99,7 @@ class RealsenseSource final : public FrameSource {
   const FrameTally& tally() const override { return rig_.tally(); }
   const RigFacts* facts() const override { return rig_.facts(); }
   const RigOptions* rig() const override { return rig_.rig(); }
-  void stop_when(std::function<bool()> is_unwanted) override {
-    rig_.stop_when(std::move(is_unwanted));
-  }
+  void stop_when(const std::function<bool()>& is_unwanted) override { rig_.stop_when(is_unwanted); }
   std::vector<RigEvent> take_events() override { return rig_.take_events(); }
 
  private:
