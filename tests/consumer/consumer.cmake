@@ -4,6 +4,9 @@
 # Defines the ctest cases of label `consumer`: Swiftlet installed and found, and Swiftlet added as a folder.
 set(consumer_dir ${PROJECT_BINARY_DIR}/consumer)
 set(consumer_common -G ${CMAKE_GENERATOR} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER})
+if(SWIFTLET_HAS_REALSENSE)
+  list(APPEND consumer_common -Drealsense2_DIR=${realsense2_DIR})
+endif()
 
 # consumer_case(NAME PROGRAMS use_core ... CONFIGURE -D...): configures, builds and runs programs of the consumer.
 function(consumer_case name)

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/app/doctor_checks.hpp"
 #include "swiftlet/app/experiment.hpp"
 #include "swiftlet/app/map_view.hpp"
 #include "swiftlet/app/parameter_table.hpp"
@@ -85,6 +86,7 @@ const std::array kKinds{
     Kind{"exporters", "swiftlet export --to", [] { return listed(exporters()); }},
     Kind{"views", "swiftlet render --view", [] { return listed(map_views()); }},
     Kind{"scores", "swiftlet score", [] { return listed(eval::scores()); }},
+    Kind{"checks", "swiftlet doctor", [] { return listed(doctor_checks()); }},
     Kind{"experiments", "swiftlet experiment", [] { return listed(experiments()); }},
     Kind{"parameters", "swiftlet map --config, --set", listed_parameters},
 };

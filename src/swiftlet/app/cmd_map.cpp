@@ -10,6 +10,7 @@
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/config_flags.hpp"
+#include "swiftlet/app/events.hpp"
 #include "swiftlet/app/flight_watch.hpp"
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/mapping_session.hpp"
@@ -80,17 +81,22 @@ SessionOptions session_options(const MapOptions& options, const SourceInfo& info
 Status fly(FrameSource& source, MappingSession& session, const MapOptions& options,
            const InterruptGuard& interrupt, FlightWatch* watch) {
   Progress progress(options.frames > 0 ? options.frames : source.info().frame_count);
+  source.stop_when([&] { return interrupt.is_interrupted(); });
   MappingSummary& summary = session.summary();
   Status outcome = Done{};
   for (std::size_t done = 0; options.frames == 0 || done < options.frames;) {
     summary.was_interrupted = interrupt.is_interrupted();
     if (summary.was_interrupted) break;
     auto frame = source.next();
+    tell_events(source.take_events(), progress);
     if (!frame) {
       outcome = forward_error(std::move(frame));
       break;
     }
-    if (!*frame) break;
+    if (!*frame) {
+      summary.was_interrupted = interrupt.is_interrupted();
+      break;
+    }
     if (watch != nullptr) watch->note(source.tally());
     outcome = session.integrate(**frame);
     if (!outcome) break;

@@ -9,6 +9,8 @@
 #define SWIFTLET_COMMANDS(X)                                  \
   X(map, "build a map from a recorded or simulated flight")   \
   X(info, "tell what a map file or a recording (.bag) holds") \
+  X(doctor, "examine live cameras or a recording")            \
+  X(record, "record live RealSense cameras")                  \
   X(view, "show a map in the browser")                        \
   X(render, "draw a map as a PNG picture")                    \
   X(export, "write a map in another program's format")        \

@@ -73,6 +73,10 @@ void Progress::update(std::size_t done) {
   }
 }
 
+void Progress::tell(const std::string& text) {
+  show((is_terminal_ ? kClearLine : "") + text + "\n");
+}
+
 void Progress::finish() {
   const ProgressState state{done_, total_, elapsed_s()};
   if (is_terminal_) show(kClearLine);

@@ -58,6 +58,24 @@ std::string poses_text(const FrameTally& tally, std::size_t restarts) {
   return text;
 }
 
+/// "2 unplugged, 2 restarted"
+std::string events_text(const RigEventCounts& events) {
+  std::string text;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (events[i] == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", events[i], kRigEventNames[i]);
+  }
+  return text.empty() ? text : fmt::format("  devices    {}\n", text);
+}
+
+nlohmann::ordered_json events_json(const RigEventCounts& events) {
+  auto json = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (events[i] > 0) json[std::string(kRigEventNames[i])] = events[i];
+  }
+  return json;
+}
+
 nlohmann::ordered_json refused_json(const FrameTally& tally) {
   auto json = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < kPoseRefusalNames.size(); ++i) {
@@ -126,6 +144,7 @@ std::string summary_text(const MappingSummary& s) {
                       rate(s.integrated(), mapper_s));
   text += dropped_text(s.dropped());
   text += poses_text(s.source_tally, s.restarts);
+  text += events_text(s.source_tally.events);
   if (s.late_frames > 0) {
     text += fmt::format("  deadline   {} frames late; {} far blocks left to later frames\n",
                         s.late_frames, s.blocks_left);
@@ -151,6 +170,7 @@ std::string summary_json(const MappingSummary& s) {
       {"pose_jumps", s.source_tally.pose_jumps},
       {"stale_alarms", s.source_tally.stale_alarms},
       {"restarts", s.restarts},
+      {"device_events", events_json(s.source_tally.events)},
       {"elapsed_s", s.elapsed_s},
       {"fps", rate(s.integrated(), s.elapsed_s)},
       {"mapper_fps", rate(s.integrated(), seconds(s.latency.total()))},

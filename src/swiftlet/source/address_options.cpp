@@ -31,6 +31,16 @@ Expected<SourceAddress> parse_address(std::string_view rest, std::string_view ki
   return address;
 }
 
+std::vector<std::string> split_list(std::string_view text) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    parts.emplace_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
 std::string with_option(std::string address, std::string_view key, std::string_view value) {
   const char joint = address.find('?') == std::string::npos ? '?' : '&';
   return fmt::format("{}{}{}={}", address, joint, key, value);

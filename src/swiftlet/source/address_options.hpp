@@ -21,6 +21,9 @@ struct SourceAddress {
 /// Errors: kUsage for an option without "=" or given twice.
 [[nodiscard]] Expected<SourceAddress> parse_address(std::string_view rest, std::string_view kind);
 
+/// The parts of a list "a,b,c"; one empty part of an empty text.
+[[nodiscard]] std::vector<std::string> split_list(std::string_view text);
+
 /// Adds an option to an address.
 [[nodiscard]] std::string with_option(std::string address, std::string_view key,
                                       std::string_view value);

@@ -49,6 +49,10 @@ template <class Visit>
     const std::filesystem::path& path);
 [[nodiscard]] Expected<std::optional<BagPoses>> open_realsense_poses(
     const std::filesystem::path& path);
+/// Poses as lines of text, in the order of the file (parse_pose_line()). The whole file is read.
+/// Errors: kNotFound, kIo; kCorruptInput naming file and line.
+[[nodiscard]] Expected<BagPoses> open_text_poses(const std::filesystem::path& path,
+                                                 const BagTopics& topics);
 [[nodiscard]] Expected<BagDepth> open_ros_depth(const std::filesystem::path& path,
                                                 const BagTopics& topics);
 [[nodiscard]] Expected<BagPoses> open_ros_poses(const std::filesystem::path& path,

@@ -34,12 +34,6 @@ struct BagRequest {
   bool has_rig_file = false;
 };
 
-std::optional<BodyAxes> axes_from(std::string_view name) {
-  const auto found = std::ranges::find(kBodyAxesNames, name);
-  if (found == kBodyAxesNames.end()) return std::nullopt;
-  return static_cast<BodyAxes>(found - kBodyAxesNames.begin());
-}
-
 /// false if the option is not known or cannot be meant.
 bool apply(std::string_view key, const std::string& value, BagRequest& request) {
   if (key == "depth_topic") return !(request.topics.depth = value).empty();
@@ -47,7 +41,7 @@ bool apply(std::string_view key, const std::string& value, BagRequest& request) 
   if (key == "pose_topic") return !(request.topics.pose = value).empty();
   if (key == "body_frame") return !(request.topics.body_frame = value).empty();
   if (key == "pose_axes") {
-    const auto axes = axes_from(value);
+    const auto axes = body_axes_from(value);
     request.topics.pose_axes = axes.value_or(BodyAxes::kRep103);
     return axes.has_value();
   }
@@ -62,13 +56,7 @@ bool apply(std::string_view key, const std::string& value, BagRequest& request) 
 std::vector<std::string> split_files(const std::string& place) {
   std::error_code unreadable;
   if (fs::exists(place, unreadable)) return {place};  // its name may hold a comma
-  std::vector<std::string> files;
-  for (std::size_t begin = 0; begin <= place.size();) {
-    const std::size_t end = std::min(place.find(',', begin), place.size());
-    files.push_back(place.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return files;
+  return split_list(place);
 }
 
 Status assign_files(const std::string& place, BagRequest& request) {
@@ -113,6 +101,11 @@ Expected<BagRequest> parse_request(std::string_view rest) {
 Status find_mount(const BagDepth& depth, const BagPoses& poses, BagRequest& request) {
   if (request.has_rig_file || poses.is_t265) return Done{};
   const std::string& file = request.depth_files.front();
+  if (depth.frame_id.empty()) {
+    return fail(ErrorCode::kNotFound, file,
+                "nobody tells where the camera sits on what has the poses",
+                "describe the mount in a rig file and give it with --rig (docs/rig.md)");
+  }
   auto mount = mount_from_tf(file, poses.child_frame, depth.frame_id);
   if (!mount) return forward_error(std::move(mount));
   if (!*mount) {

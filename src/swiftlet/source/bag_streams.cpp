@@ -52,6 +52,7 @@ Expected<BagDepth> open_bag_depth(const std::filesystem::path& path, const BagTo
 }
 
 Expected<BagPoses> open_bag_poses(const std::filesystem::path& path, const BagTopics& topics) {
+  if (path.extension() == ".txt") return open_text_poses(path, topics);
   if (topics.pose.empty()) {
     auto recorded = open_realsense_poses(path);
     if (!recorded) return forward_error(std::move(recorded));

@@ -41,7 +41,8 @@ struct BagPoses {
   bool is_t265 = false;     ///< recorded by the SDK: native up axis is +y
 };
 
-/// Opens the depth images of a RealSense recording or of a ROS 1 bag.
+/// Opens the depth images of a RealSense recording or of a ROS 1 bag; poses also of a text file
+/// (.txt) with lines as in TUM's trajectories.
 /// Errors: those of BagReader; kNotFound naming the topics there are; those of the intrinsics.
 [[nodiscard]] Expected<BagDepth> open_bag_depth(const std::filesystem::path& path,
                                                 const BagTopics& topics);

@@ -6,16 +6,22 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/frame/trusted_poses.hpp"
+#include "swiftlet/source/rig_event.hpp"
+#include "swiftlet/source/rig_facts.hpp"
 
 namespace swiftlet {
+
+struct RigOptions;
 
 /// Why a source could not turn a depth image into a Frame.
 enum class FrameLoss : std::uint8_t {
@@ -40,6 +46,7 @@ struct FrameTally {
   std::array<std::size_t, kPoseRefusalNames.size()> poses_refused_by{};
   std::size_t pose_jumps = 0;    ///< times the pose source corrected itself at once
   std::size_t stale_alarms = 0;  ///< times the tracker fell silent while images came
+  RigEventCounts events{};       ///< of live instruments
 
   std::size_t& of(FrameLoss loss) { return lost[static_cast<std::size_t>(loss)]; }
 };
@@ -66,6 +73,16 @@ class FrameSource {
 
   [[nodiscard]] virtual const SourceInfo& info() const = 0;
   [[nodiscard]] virtual const FrameTally& tally() const = 0;
+
+  /// What has come from the instruments, used or not, and how they are mounted; null for sources
+  /// that are no rig. Both stay where they are; next() changes the facts.
+  [[nodiscard]] virtual const RigFacts* facts() const { return nullptr; }
+  [[nodiscard]] virtual const RigOptions* rig() const { return nullptr; }
+
+  /// A live source asks this while it waits for a frame, ten times a second; after a true it ends.
+  virtual void stop_when(const std::function<bool()>& /*is_unwanted*/) {}
+  /// What has happened to live instruments since the last call.
+  [[nodiscard]] virtual std::vector<RigEvent> take_events() { return {}; }
 };
 
 using FrameSourcePtr = std::unique_ptr<FrameSource>;

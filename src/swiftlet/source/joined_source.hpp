@@ -26,6 +26,8 @@ class JoinedSource final : public FrameSource {
   [[nodiscard]] Expected<std::optional<Frame>> next() override;
   [[nodiscard]] const SourceInfo& info() const override { return info_; }
   [[nodiscard]] const FrameTally& tally() const override { return rig_.tally(); }
+  [[nodiscard]] const RigFacts* facts() const override { return &rig_.facts(); }
+  [[nodiscard]] const RigOptions* rig() const override { return &rig_.options(); }
 
  private:
   struct Camera {

@@ -5,15 +5,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "swiftlet/base/contract.hpp"
 
 namespace swiftlet {
+namespace {
+
+constexpr std::size_t kMaxEvents = 100;                          // that nobody has taken
+constexpr Nanoseconds kGlance = std::chrono::milliseconds(100);  // at whether to go on waiting
+
+}  // namespace
 
 LiveRig::LiveRig(SourceInfo info, const Options& options)
-    : info_(std::move(info)), options_(options), rig_(options.rig) {
+    : info_(std::move(info)),
+      options_(options),
+      rig_(options.rig),
+      last_images_(options.rig.cameras.size()) {
   SWIFTLET_REQUIRE(options.queue.capacity >= 1, "a queue holds a frame");
+  facts_ = rig_.facts();
 }
 
 void LiveRig::collect() {
@@ -29,6 +41,7 @@ void LiveRig::collect() {
 
 void LiveRig::push(const PoseSample& pose) {
   const std::lock_guard lock(mutex_);
+  last_pose_ = HostTime::clock::now();
   rig_.push(pose);
   collect();
 }
@@ -36,10 +49,35 @@ void LiveRig::push(const PoseSample& pose) {
 void LiveRig::push(DepthFrame depth) {
   const std::lock_guard lock(mutex_);
   ++images_;
-  if (!depth.seen_at) depth.seen_at = std::chrono::steady_clock::now();
+  const HostTime now = HostTime::clock::now();
+  last_images_[depth.camera] = now;
+  if (!depth.seen_at) depth.seen_at = now;
   rig_.push(std::move(depth));
   collect();
-  changed_.notify_all();  // the camera lives, even if its image has no pose yet
+}
+
+void LiveRig::note(RigEvent event) {
+  const std::lock_guard lock(mutex_);
+  ++event_counts_[static_cast<std::size_t>(event.kind)];
+  if (events_.size() < kMaxEvents) events_.push_back(std::move(event));
+}
+
+std::vector<RigEvent> LiveRig::take_events() {
+  const std::lock_guard lock(mutex_);
+  std::vector<RigEvent> taken(std::make_move_iterator(events_.begin()),
+                              std::make_move_iterator(events_.end()));
+  events_.clear();
+  return taken;
+}
+
+std::optional<HostTime> LiveRig::last_image(std::size_t camera) const {
+  const std::lock_guard lock(mutex_);
+  return last_images_[camera];
+}
+
+std::optional<HostTime> LiveRig::last_pose() const {
+  const std::lock_guard lock(mutex_);
+  return last_pose_;
 }
 
 void LiveRig::start_poses_anew() {
@@ -57,11 +95,18 @@ void LiveRig::close() {
 
 Expected<std::optional<Frame>> LiveRig::next() {
   std::unique_lock lock(mutex_);
-  bool is_alive = true;
-  while (queue_.empty() && !is_closed_ && is_alive) {
-    const std::size_t seen = images_;
-    is_alive = changed_.wait_for(lock, options_.patience,
-                                 [&] { return !queue_.empty() || is_closed_ || images_ != seen; });
+  bool is_unwanted = false;
+  std::size_t seen = images_;
+  HostTime alive_at = HostTime::clock::now();
+  const auto is_silent = [&] { return HostTime::clock::now() - alive_at > options_.patience; };
+  while (queue_.empty() && !is_closed_ && !is_unwanted && !is_silent()) {
+    changed_.wait_for(lock, std::min(kGlance, options_.patience),
+                      [this] { return !queue_.empty() || is_closed_; });
+    if (images_ != seen) alive_at = HostTime::clock::now();
+    seen = images_;
+    lock.unlock();  // it is somebody else's function
+    is_unwanted = is_unwanted_ && is_unwanted_();
+    lock.lock();
   }
   std::optional<Frame> frame;
   if (!queue_.empty()) {
@@ -72,7 +117,9 @@ Expected<std::optional<Frame>> LiveRig::next() {
   tally_ = rig_.tally();
   tally_.of(FrameLoss::kOverload) += overloaded_;
   tally_.delivered = delivered_;
-  if (frame || is_alive) return frame;
+  tally_.events = event_counts_;
+  facts_ = rig_.facts();
+  if (frame || is_closed_ || is_unwanted) return frame;
   return fail(ErrorCode::kIo, info_.uri,
               fmt::format("no image has come for {:.1f} s", seconds(options_.patience)),
               "check the cable and that the camera is on a USB 3 port of its own");

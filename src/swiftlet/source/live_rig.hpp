@@ -5,11 +5,14 @@
 
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "swiftlet/source/frame_source.hpp"
+#include "swiftlet/source/live_sink.hpp"
 #include "swiftlet/source/real_time_source.hpp"
 #include "swiftlet/source/rig.hpp"
 
@@ -19,9 +22,9 @@ namespace swiftlet {
 /// takes with next(). No driver ever waits for the mapper: when it is late, the oldest posed frame
 /// is lost (kOverload).
 ///
-/// Thread safety: all but next() and tally() from any thread; these from the mapper's.
-/// Memory: that of the Rig and `queue.capacity` frames.
-class LiveRig final : public FrameSource {
+/// Thread safety: from any thread all but what FrameSource declares; that from the mapper's.
+/// Memory: that of the Rig, `queue.capacity` frames, and the last 100 events.
+class LiveRig final : public FrameSource, public LiveSink {
  public:
   struct Options {
     RigOptions rig;
@@ -31,10 +34,12 @@ class LiveRig final : public FrameSource {
   };
   LiveRig(SourceInfo info, const Options& options);
 
-  void push(const PoseSample& pose);
-  void push(DepthFrame depth);
-  /// See Rig::start_poses_anew().
-  void start_poses_anew();
+  void push(const PoseSample& pose) override;
+  void push(DepthFrame depth) override;
+  void note(RigEvent event) override;
+  void start_poses_anew() override;
+  [[nodiscard]] std::optional<HostTime> last_image(std::size_t camera) const override;
+  [[nodiscard]] std::optional<HostTime> last_pose() const override;
   /// No instrument will deliver again.
   void close();
 
@@ -42,19 +47,29 @@ class LiveRig final : public FrameSource {
   [[nodiscard]] Expected<std::optional<Frame>> next() override;
   [[nodiscard]] const SourceInfo& info() const override { return info_; }
   [[nodiscard]] const FrameTally& tally() const override { return tally_; }
+  [[nodiscard]] const RigFacts* facts() const override { return &facts_; }
+  [[nodiscard]] const RigOptions* rig() const override { return &options_.rig; }
+  void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
+  [[nodiscard]] std::vector<RigEvent> take_events() override;
 
  private:
   void collect();  // REQUIRES: the lock
 
   const SourceInfo info_;
   const Options options_;
-  FrameTally tally_;  // the mapper's
+  FrameTally tally_;  // the mapper's, as are the next three
+  RigFacts facts_;
   std::size_t delivered_ = 0;
+  std::function<bool()> is_unwanted_;
 
-  std::mutex mutex_;  // of all that follows
+  mutable std::mutex mutex_;  // of all that follows
   std::condition_variable changed_;
   Rig rig_;
   std::deque<Frame> queue_;
+  std::deque<RigEvent> events_;
+  RigEventCounts event_counts_{};
+  std::vector<std::optional<HostTime>> last_images_;
+  std::optional<HostTime> last_pose_;
   std::size_t overloaded_ = 0;
   std::size_t images_ = 0;
   bool is_closed_ = false;

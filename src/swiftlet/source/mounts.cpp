@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "swiftlet/base/contract.hpp"
+#include "swiftlet/source/t265_axes.hpp"
 
 namespace swiftlet {
 namespace {
@@ -30,6 +31,12 @@ Eigen::Vector3d direction(std::string_view looks) {
 }
 
 }  // namespace
+
+std::optional<BodyAxes> body_axes_from(std::string_view name) {
+  const auto found = std::ranges::find(kBodyAxesNames, name);
+  if (found == kBodyAxesNames.end()) return std::nullopt;
+  return static_cast<BodyAxes>(found - kBodyAxesNames.begin());
+}
 
 Expected<Transform<Body, Camera>> mount_from_matrix(
     const Eigen::Matrix<double, 3, 4>& T_body_camera, BodyAxes axes) {
@@ -75,6 +82,17 @@ Status check_mount(const Transform<Body, Camera>& T_body_camera, std::string_vie
                   "body, {:.0f} degrees off '{}'",
                   axis.x(), axis.y(), axis.z(), off_rad * 180 / std::numbers::pi, looks),
       "check its 'axes' (rep103: x forward, y left, z up; t265: x right, y up, z backward)");
+}
+
+PoseSample in_our_axes(const PoseSample& pose, BodyAxes axes) {
+  PoseSample ours = pose;
+  if (axes == BodyAxes::kT265) {
+    ours.R_world_body = from_t265_axes(pose.R_world_body);
+    ours.t_world_body_m = from_t265_axes(pose.t_world_body_m);
+  }
+  if (axes == BodyAxes::kOptical)
+    ours.R_world_body = pose.R_world_body * forward_looking_camera().rotation().conjugate();
+  return ours;
 }
 
 }  // namespace swiftlet

@@ -5,10 +5,12 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/base/frame_of.hpp"
+#include "swiftlet/frame/pose_sample.hpp"
 
 namespace swiftlet {
 
@@ -19,6 +21,7 @@ enum class BodyAxes {
   kOptical,  ///< x right, y down, z forward: of a camera
 };
 inline constexpr std::array<std::string_view, 3> kBodyAxesNames{"rep103", "t265", "optical"};
+[[nodiscard]] std::optional<BodyAxes> body_axes_from(std::string_view name);
 
 /// A mount as others write it, p_body = R p_camera + t with the body in its own axes, in ours.
 /// Errors: kInvalidConfig if R is no rotation (its determinant or columns) or t is not finite.
@@ -39,5 +42,9 @@ inline constexpr std::array<std::string_view, 6> kDirections{"forward", "back", 
 /// Errors: kInvalidConfig.
 [[nodiscard]] Status check_mount(const Transform<Body, Camera>& T_body_camera,
                                  std::string_view looks, double max_distance_m = 2.0);
+
+/// A pose of a level world in whatever axes it was written, in ours. A camera's own axes turn the
+/// body only: the world of such a pose is level already.
+[[nodiscard]] PoseSample in_our_axes(const PoseSample& pose, BodyAxes axes);
 
 }  // namespace swiftlet

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <fmt/format.h>
+
 #include <librealsense2/rs.hpp>
 #include <memory>
 #include <string>
@@ -10,13 +12,28 @@
 #include <vector>
 
 #include "swiftlet/base/expected.hpp"
-#include "swiftlet/source/live_rig.hpp"
+#include "swiftlet/frame/intrinsics.hpp"
+#include "swiftlet/source/live_keeper.hpp"
 
 // The RealSense SDK at sensor level: neither pipeline nor syncer, which drop frames and poses.
 // Version guards: global time since 2.22, options of the T265 since 2.25, unit per frame
 // since 2.37. SDK 2.53.1 is the last that can talk to a T265.
 
 namespace swiftlet {
+
+/// Calls the SDK, which reports by exception; none passes: kIo with its words.
+template <class Call>
+auto with_sdk(Call call) -> decltype(call()) {
+  try {
+    return call();
+  } catch (const rs2::error& error) {
+    return fail(ErrorCode::kIo, "realsense",
+                fmt::format("{}: {}", error.get_failed_function(), error.what()),
+                "plug the camera in again, on a USB 3 port");
+  } catch (const std::exception& error) {
+    return fail(ErrorCode::kIo, "realsense", error.what());
+  }
+}
 
 /// How a depth camera streams.
 struct RealsenseProfile {
@@ -28,17 +45,16 @@ struct RealsenseProfile {
 };
 
 /// A sensor that streams until the object goes away.
-class RealsenseStream {
+class RealsenseStream final : public LiveStream {
  public:
   explicit RealsenseStream(const rs2::sensor& sensor) : sensor_(sensor) {}
   RealsenseStream(const RealsenseStream&) = delete;
   RealsenseStream& operator=(const RealsenseStream&) = delete;
-  ~RealsenseStream();
+  ~RealsenseStream() override;
 
  private:
   rs2::sensor sensor_;
 };
-using RealsenseStreamPtr = std::unique_ptr<RealsenseStream>;
 
 /// What is known of a depth camera before its first image.
 struct RealsenseDepthInfo {
@@ -57,18 +73,18 @@ struct RealsenseDepthSensor {
 /// SDK's words.
 [[nodiscard]] Expected<RealsenseDepthSensor> prepare_depth(const rs2::device& device,
                                                            const RealsenseProfile& wanted);
-/// Streams depth into a rig as images of a camera. Errors: kIo with the SDK's words.
-[[nodiscard]] Expected<RealsenseStreamPtr> start_depth(const RealsenseDepthSensor& depth,
-                                                       std::uint8_t camera, LiveRig& rig);
+/// Streams depth into a sink as images of a camera. Errors: kIo with the SDK's words.
+[[nodiscard]] Expected<LiveStreamPtr> start_depth(const RealsenseDepthSensor& depth,
+                                                  std::uint8_t camera, LiveSink& sink);
 
-/// Streams the poses of a T265 into a rig, with relocalisation and jumping off and mapping on.
+/// Streams the poses of a T265 into a sink, with relocalisation and jumping off and mapping on.
 /// Errors: kNotFound if the device has none, kIo with the SDK's words.
-[[nodiscard]] Expected<RealsenseStreamPtr> start_poses(const rs2::device& device, LiveRig& rig);
+[[nodiscard]] Expected<LiveStreamPtr> start_poses(const rs2::device& device, LiveSink& sink);
 
 /// What the callbacks do with a frame; never throws.
 void take_depth(const rs2::frame& frame, const RealsenseDepthInfo& info, std::uint8_t camera,
-                LiveRig& rig);
+                LiveSink& sink);
 void take_pose(const rs2_pose& pose, double timestamp_ms, rs2_timestamp_domain domain,
-               LiveRig& rig);
+               LiveSink& sink);
 
 }  // namespace swiftlet

@@ -5,34 +5,28 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
+#include <algorithm>
 #include <charconv>
-#include <condition_variable>
-#include <mutex>
-#include <optional>
+#include <cmath>
 #include <string>
-#include <thread>
 #include <utility>
 
+#include "swiftlet/base/number_text.hpp"
 #include "swiftlet/source/address_options.hpp"
 #include "swiftlet/source/live_rig.hpp"
-#include "swiftlet/source/realsense_driver_private.hpp"
+#include "swiftlet/source/realsense_rig_private.hpp"
 #include "swiftlet/source/rig_options.hpp"
 
-// realsense:[SERIAL][?profile=848x480@30&laser_mw=150&preset=3&rig=FILE...]: a D400 camera and a
-// T265 on one body, live. Without a serial the first camera with depth is taken.
+// realsense:[SERIAL[,SERIAL...]][?profile=848x480@30&poses=udp:PORT&rig=FILE...]: D400 cameras and
+// a T265, or any other pose source, on one body, live. A camera without a serial is the first
+// there.
 
 namespace swiftlet {
 namespace {
 
-constexpr std::string_view kOwnOptions = "profile=WIDTHxHEIGHT@FPS, laser_mw, preset";
-constexpr auto kRetry = std::chrono::milliseconds(500);
-
-struct Request {
-  std::string serial;
-  RealsenseProfile profile;
-  RigOptions rig;
-};
+constexpr std::string_view kOwnOptions =
+    "profile=WIDTHxHEIGHT@FPS, laser_mw, preset, poses=udp:PORT, pose_axes=rep103|t265|optical, "
+    "wait_s";
 
 /// "848x480@30"
 bool parse_profile(std::string_view text, RealsenseProfile& out) {
@@ -50,172 +44,116 @@ bool parse_profile(std::string_view text, RealsenseProfile& out) {
   return false;
 }
 
-bool apply(std::string_view key, std::string_view value, Request& request) {
+/// "udp:5605"
+bool parse_port(std::string_view text, RealsenseRequest& request) {
+  constexpr std::string_view kScheme = "udp:";
+  if (!text.starts_with(kScheme)) return false;
+  request.pose_port = number_from<std::uint16_t>(text.substr(kScheme.size()));
+  return request.pose_port && *request.pose_port > 0;
+}
+
+bool apply(std::string_view key, std::string_view value, RealsenseRequest& request) {
   if (key == "profile") return parse_profile(value, request.profile);
+  if (key == "poses") return parse_port(value, request);
+  if (key == "pose_axes") {
+    const auto axes = body_axes_from(value);
+    request.rig.pose_axes = axes.value_or(BodyAxes::kRep103);
+    return axes.has_value();
+  }
   const auto number = number_within(value, 0.0, 1000.0);
   if (key == "laser_mw" && number) request.profile.laser_mw = static_cast<float>(*number);
   if (key == "preset" && number) request.profile.visual_preset = static_cast<float>(*number);
-  if (key == "laser_mw" || key == "preset") return number.has_value();
-  return apply_rig_option(key, value, request.rig);
+  if (key == "wait_s" && number) request.patience = Nanoseconds(std::llround(*number * 1e9));
+  if (key == "laser_mw" || key == "preset" || key == "wait_s") return number.has_value();
+  return apply_rig_option(key, value, request.rig.rig);
 }
 
-bool has_stream(const rs2::device& device, rs2_stream stream) {
-  for (const rs2::sensor& sensor : device.query_sensors()) {
-    for (const rs2::stream_profile& profile : sensor.get_stream_profiles()) {
-      if (profile.stream_type() == stream) return true;
-    }
+/// Gives the cameras of the rig the serial numbers of the address, if it names any.
+Status assign_serials(std::string_view place, std::vector<RigCamera>& cameras) {
+  if (place.empty()) return Done{};
+  const std::vector<std::string> serials = split_list(place);
+  if (serials.size() != cameras.size()) {
+    return fail(ErrorCode::kUsage, "realsense",
+                fmt::format("{} serial numbers for {} camera{}", serials.size(), cameras.size(),
+                            cameras.size() == 1 ? "" : "s"),
+                "describe the cameras and their mounts in a rig file (docs/rig.md)");
   }
-  return false;
+  for (std::size_t i = 0; i < cameras.size(); ++i) cameras[i].stream = serials[i];
+  return Done{};
 }
 
-std::string serial_of(const rs2::device& device) {
-  return device.supports(RS2_CAMERA_INFO_SERIAL_NUMBER)
-             ? device.get_info(RS2_CAMERA_INFO_SERIAL_NUMBER)
-             : "";
-}
-
-/// The first device that has a stream and, if it is given, a serial number. The SDK's exceptions
-/// mean that a device has gone while it was asked: it is not there.
-std::optional<rs2::device> find_device(const rs2::context& context, rs2_stream stream,
-                                       const std::string& serial = {}) {
-  try {
-    for (const rs2::device& device : context.query_devices()) {
-      if (has_stream(device, stream) && (serial.empty() || serial_of(device) == serial))
-        return device;
-    }
-  } catch (const rs2::error&) {
-    return std::nullopt;
-  }
-  return std::nullopt;
-}
-
-/// Both devices of the rig. A thread of its own starts what was unplugged again when it is back.
+/// A rig of live devices; what there was to start them with is kept as long as it runs.
 class RealsenseSource final : public FrameSource {
  public:
-  RealsenseSource(rs2::context context, SourceInfo info, const Request& request)
-      : context_(std::move(context)),
-        request_(request),
-        rig_(std::move(info), {.rig = request.rig, .queue = {}}) {
-    context_.set_devices_changed_callback([this](rs2::event_information& event) {
-      const std::lock_guard lock(mutex_);
-      if (depth_device_ && event.was_removed(*depth_device_)) is_depth_lost_ = true;
-      if (pose_device_ && event.was_removed(*pose_device_)) is_pose_lost_ = true;
-    });
-    keeper_ = std::thread([this] { keep(); });
-  }
-  RealsenseSource(const RealsenseSource&) = delete;
-  RealsenseSource& operator=(const RealsenseSource&) = delete;
-  ~RealsenseSource() override {
-    context_.set_devices_changed_callback([](rs2::event_information&) {});  // not into what goes
-    {
-      const std::lock_guard lock(mutex_);
-      is_stopped_ = true;
-    }
-    stopped_.notify_all();
-    keeper_.join();
-    depth_.reset();
-    poses_.reset();
+  RealsenseSource(SourceInfo info, const LiveRig::Options& options)
+      : rig_(std::move(info), options) {}
+  [[nodiscard]] Status start(RealsenseDevicesPtr devices, const RealsenseRequest& request) {
+    auto started = RealsenseRig::start(std::move(devices), request, rig_);
+    if (!started) return forward_error(std::move(started));
+    devices_ = std::move(*started);
+    return Done{};
   }
 
   Expected<std::optional<Frame>> next() override { return rig_.next(); }
   const SourceInfo& info() const override { return rig_.info(); }
   const FrameTally& tally() const override { return rig_.tally(); }
+  const RigFacts* facts() const override { return rig_.facts(); }
+  const RigOptions* rig() const override { return rig_.rig(); }
+  void stop_when(const std::function<bool()>& is_unwanted) override { rig_.stop_when(is_unwanted); }
+  std::vector<RigEvent> take_events() override { return rig_.take_events(); }
 
  private:
-  void keep() {
-    std::unique_lock lock(mutex_);
-    while (!is_stopped_) {
-      const bool drop_depth = std::exchange(is_depth_lost_, false);
-      const bool drop_poses = std::exchange(is_pose_lost_, false);
-      lock.unlock();  // the SDK may call back while it starts and stops
-      if (drop_depth) depth_.reset();
-      if (drop_poses) poses_.reset();
-      if (depth_ == nullptr) connect_depth();
-      if (poses_ == nullptr) connect_poses();
-      lock.lock();
-      stopped_.wait_for(lock, kRetry, [this] { return is_stopped_; });
-    }
-  }
-
-  void connect_depth() {
-    const auto device = find_device(context_, RS2_STREAM_DEPTH, request_.serial);
-    if (!device) return;
-    const auto prepared = prepare_depth(*device, request_.profile);
-    if (!prepared) return;
-    if (auto started = start_depth(*prepared, 0, rig_)) {
-      depth_ = std::move(*started);
-      const std::lock_guard lock(mutex_);
-      depth_device_ = device;
-    }
-  }
-
-  void connect_poses() {
-    const auto device = find_device(context_, RS2_STREAM_POSE);
-    if (!device) return;
-    if (pose_device_) rig_.start_poses_anew();  // a T265 begins a new world when it starts
-    if (auto started = start_poses(*device, rig_)) {
-      poses_ = std::move(*started);
-      const std::lock_guard lock(mutex_);
-      pose_device_ = device;
-    }
-  }
-
-  rs2::context context_;
-  Request request_;
   LiveRig rig_;
-  RealsenseStreamPtr depth_, poses_;  // the keeper's
-
-  std::mutex mutex_;  // of all that follows
-  std::condition_variable stopped_;
-  std::optional<rs2::device> depth_device_, pose_device_;
-  bool is_depth_lost_ = false;
-  bool is_pose_lost_ = false;
-  bool is_stopped_ = false;
-
-  std::thread keeper_;
+  std::unique_ptr<RealsenseRig> devices_;  // last: it delivers into the rig
 };
 
-Expected<Request> parse_request(std::string_view rest) {
+}  // namespace
+
+Expected<RealsenseRequest> parse_realsense(std::string_view rest) {
   auto address = parse_address(rest, "realsense");
   if (!address) return forward_error(std::move(address));
   auto rig_file = rig_of(*address);
   if (!rig_file) return forward_error(std::move(rig_file));
-  Request request{address->place, {}, (*rig_file ? **rig_file : intel_t265_d435_rig()).rig};
+  RealsenseRequest request;
+  request.uri = "realsense:" + std::string(rest);
+  request.rig = *rig_file ? **rig_file : intel_t265_d435_rig();
   for (const auto& [key, value] : address->options) {
     if (!apply(key, value, request))
       return bad_option("realsense", key, value, fmt::format("{}, {}", kOwnOptions, kRigOptions));
   }
-  if (request.rig.cameras.size() != 1)
-    return fail(ErrorCode::kUnsupported, "realsense", "a live rig has one depth camera so far",
-                "record the others and map the recordings");
+  if (request.pose_port && !*rig_file) {
+    return fail(ErrorCode::kUsage, "realsense",
+                "nobody tells where the camera sits on what has the poses",
+                "describe the mount in a rig file and give it with --rig (docs/rig.md)");
+  }
+  if (auto assigned = assign_serials(address->place, request.rig.rig.cameras); !assigned)
+    return forward_error(std::move(assigned));
   return request;
 }
 
-}  // namespace
+Expected<FrameSourcePtr> open_realsense(RealsenseDevicesPtr devices,
+                                        const RealsenseRequest& request) {
+  auto infos = survey_realsense(*devices, request);
+  if (!infos) return forward_error(std::move(infos));
+  LiveRig::Options options{.rig = request.rig.rig, .queue = {}, .patience = request.patience};
+  std::vector<RigCamera>& cameras = options.rig.cameras;
+  for (std::size_t i = 0; i < cameras.size() && cameras.size() > 1; ++i) {
+    if (cameras[i].baseline_m == 0.0) cameras[i].baseline_m = (*infos)[i].baseline_m;
+  }
+  SourceInfo info{request.uri, request.pose_port ? "+z" : "+y", std::nullopt, std::nullopt};
+  if (infos->front().baseline_m > 0.0) info.baseline_m = infos->front().baseline_m;
+  auto source = std::make_unique<RealsenseSource>(std::move(info), options);
+  if (auto started = source->start(std::move(devices), request); !started)
+    return forward_error(std::move(started));
+  return source;
+}
 
 Expected<FrameSourcePtr> open_realsense_source(std::string_view rest) {
-  auto request = parse_request(rest);
+  auto request = parse_realsense(rest);
   if (!request) return forward_error(std::move(request));
-  try {
-    rs2::context context;
-    const auto depth = find_device(context, RS2_STREAM_DEPTH, request->serial);
-    if (!depth) {
-      return fail(ErrorCode::kNotFound, "realsense:" + request->serial,
-                  "no such RealSense camera with depth is connected",
-                  "check the cable, the udev rules of the SDK, and the serial number");
-    }
-    if (!find_device(context, RS2_STREAM_POSE)) {
-      return fail(ErrorCode::kNotFound, "realsense:", "no T265 is connected",
-                  "its poses are needed; SDK 2.53.1 is the last that knows it");
-    }
-    auto prepared = prepare_depth(*depth, request->profile);
-    if (!prepared) return forward_error(std::move(prepared));
-    SourceInfo info{"realsense:" + std::string(rest), "+y", std::nullopt, std::nullopt};
-    if (prepared->info.baseline_m > 0.0) info.baseline_m = prepared->info.baseline_m;
-    return std::make_unique<RealsenseSource>(std::move(context), std::move(info), *request);
-  } catch (const rs2::error& error) {
-    return fail(ErrorCode::kIo, "realsense", error.what());
-  }
+  auto devices = connected_realsense();
+  if (!devices) return forward_error(std::move(devices));
+  return open_realsense(std::move(*devices), *request);
 }
 
 }  // namespace swiftlet

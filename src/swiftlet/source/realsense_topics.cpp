@@ -56,11 +56,15 @@ std::optional<Stamp> stamp_from_milliseconds(std::string_view text) {
   } else {
     ms = parse_number(text);
   }
+  return ms ? stamp_from_milliseconds(*ms) : std::nullopt;
+}
+
+std::optional<Stamp> stamp_from_milliseconds(double ms) {
   // An unsigned 64-bit count of ns would be wrong from the year 2262 on; doubles are exact to 0.3
   // us today.
-  if (!ms || !(std::abs(*ms) < 9.2e12)) return std::nullopt;
-  const double whole_ms = std::floor(*ms);
-  return Stamp{std::llround(whole_ms) * 1'000'000 + std::llround((*ms - whole_ms) * 1e6)};
+  if (!(std::abs(ms) < 9.2e12)) return std::nullopt;
+  const double whole_ms = std::floor(ms);
+  return Stamp{std::llround(whole_ms) * 1'000'000 + std::llround((ms - whole_ms) * 1e6)};
 }
 
 }  // namespace swiftlet

@@ -28,5 +28,7 @@ namespace swiftlet {
 
 /// A time in milliseconds as the SDK writes it: decimal, or hexadecimal before 2.22.
 [[nodiscard]] std::optional<Stamp> stamp_from_milliseconds(std::string_view text);
+/// nullopt for what is no time: NaN, or beyond the range of a Stamp.
+[[nodiscard]] std::optional<Stamp> stamp_from_milliseconds(double ms);
 
 }  // namespace swiftlet

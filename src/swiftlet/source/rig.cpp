@@ -18,9 +18,11 @@ Rig::Rig(const Options& options)
       masks_(options.cameras.size()) {
   SWIFTLET_REQUIRE(!options.cameras.empty() && options.cameras.size() <= kMaxCameras,
                    "a rig has 1 to 8 cameras");
+  facts_.cameras.resize(options.cameras.size());
 }
 
 void Rig::push(const PoseSample& pose) {
+  facts_.poses.note(pose);
   poses_.push(pose);
   tally_.poses_refused_by = poses_.refused();
   tally_.poses_refused =
@@ -31,6 +33,7 @@ void Rig::push(const PoseSample& pose) {
 
 void Rig::push(DepthFrame depth) {
   SWIFTLET_REQUIRE(depth.camera < options_.cameras.size(), "the rig has no such camera");
+  facts_.cameras[depth.camera].note(depth);
   std::optional<Stamp>& last = last_stamp_[depth.camera];
   const bool is_late = last_decided_ && order_of(depth) <= *last_decided_;
   if ((last && depth.stamp <= *last) || is_late) {

@@ -14,6 +14,7 @@
 #include "swiftlet/frame/trusted_poses.hpp"
 #include "swiftlet/source/body_box.hpp"
 #include "swiftlet/source/frame_source.hpp"
+#include "swiftlet/source/rig_facts.hpp"
 
 namespace swiftlet {
 
@@ -77,6 +78,7 @@ class Rig {
   [[nodiscard]] std::optional<Frame> pop();
 
   [[nodiscard]] const FrameTally& tally() const { return tally_; }
+  [[nodiscard]] const RigFacts& facts() const { return facts_; }
   /// Alarm: images come, but the tracker has said nothing for `stale_after`.
   [[nodiscard]] bool is_pose_stale() const { return is_stale_; }
   [[nodiscard]] ClockDomain pose_clock() const { return poses_.clock(); }
@@ -103,6 +105,7 @@ class Rig {
   std::optional<Order> last_decided_;
   std::optional<Stamp> newest_depth_;
   FrameTally tally_;
+  RigFacts facts_;
   bool is_stale_ = false;
   bool is_finished_ = false;
 };

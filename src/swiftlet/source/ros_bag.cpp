@@ -8,7 +8,7 @@
 #include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/source/bag_scan.hpp"
 #include "swiftlet/source/depth_message.hpp"
-#include "swiftlet/source/t265_axes.hpp"
+#include "swiftlet/source/mounts.hpp"
 
 // Plain ROS 1 bags, as of realsense-ros or OpenLORIS-Scene.
 
@@ -57,16 +57,6 @@ class RosDepth final : public DepthStream {
 
 bool is_tf(std::string_view type) { return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage"; }
 
-/// A pose in whatever axes it was written, in ours. A camera's own axes turn the body only: the
-/// world of such a pose is level already.
-PoseSample in_our_axes(Stamp stamp, const ros::Pose& pose, BodyAxes axes) {
-  if (axes == BodyAxes::kT265) return from_t265(stamp, pose.R, pose.t_m, 3);
-  PoseSample sample{stamp, pose.R, pose.t_m};
-  if (axes == BodyAxes::kOptical)
-    sample.R_world_body = pose.R * forward_looking_camera().rotation().conjugate();
-  return sample;
-}
-
 class RosPoses final : public PoseStream {
  public:
   RosPoses(BagReader reader, std::string topic, std::string child, BodyAxes axes)
@@ -88,7 +78,8 @@ class RosPoses final : public PoseStream {
       const auto wanted = std::ranges::find_if(*poses, [&](const ros::StampedPose& pose) {
         return child_.empty() || pose.child == child_;
       });
-      if (wanted != poses->end()) return in_our_axes(wanted->stamp, wanted->pose, axes_);
+      if (wanted != poses->end())
+        return in_our_axes({wanted->stamp, wanted->pose.R, wanted->pose.t_m}, axes_);
     }
   }
 

@@ -55,6 +55,8 @@ class SimSource final : public FrameSource {
   }
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return rig_.tally(); }
+  const RigFacts* facts() const override { return &rig_.facts(); }
+  const RigOptions* rig() const override { return &rig_.options(); }
 
  private:
   /// The n-th image to arrive.

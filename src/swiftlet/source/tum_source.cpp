@@ -104,6 +104,8 @@ class TumSource final : public FrameSource {
 
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return rig_.tally(); }
+  const RigFacts* facts() const override { return &rig_.facts(); }
+  const RigOptions* rig() const override { return &rig_.options(); }
 
  private:
   /// As a live rig would see it: every pose up to the first that is not before the image.

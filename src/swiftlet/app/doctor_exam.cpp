@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/app/doctor_exam.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "swiftlet/app/progress.hpp"
+#include "swiftlet/source/sources.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+void note_readings(const Frame& frame, ReadingFacts& facts) {
+  std::vector<std::uint16_t> raw;
+  for (int v = 0; v < frame.depth.raw.height(); ++v) {
+    const auto row = frame.depth.raw.row(v);
+    std::ranges::copy_if(row, std::back_inserter(raw), [](std::uint16_t z) { return z != 0; });
+    facts.pixels += row.size();
+  }
+  facts.readings += raw.size();
+  if (raw.empty()) return;
+  const auto middle = raw.begin() + static_cast<std::ptrdiff_t>(raw.size() / 2);
+  std::ranges::nth_element(raw, middle);
+  facts.medians_m.push_back(static_cast<float>(*middle) * frame.depth.unit_m);
+}
+
+bool is_live(std::string_view address) { return address.starts_with("realsense:"); }
+
+/// Runs a source for a while, in its own time.
+void examine_source(FrameSource& source, Nanoseconds duration, const std::function<bool()>& stop,
+                    DoctorExam& exam) {
+  const HostTime start = HostTime::clock::now();
+  const bool is_timed = duration > Nanoseconds(0);
+  source.stop_when(
+      [&] { return stop() || (is_timed && HostTime::clock::now() - start > duration); });
+  if (source.rig() != nullptr) exam.rig = *source.rig();
+  exam.is_t265 = source.info().native_up_axis == "+y";
+  exam.readings.resize(exam.rig.cameras.size());
+  Progress progress(std::nullopt);
+  std::optional<Stamp> first;
+  for (std::size_t done = 0; !stop();) {
+    auto frame = source.next();
+    if (!frame) exam.fault = frame.error();
+    if (!frame || !*frame) break;
+    first = first.value_or((*frame)->stamp);
+    note_readings(**frame, exam.readings[(*frame)->camera]);
+    progress.update(++done);
+    if (is_timed && (*frame)->stamp - *first >= duration) break;
+  }
+  progress.finish();
+  if (source.facts() != nullptr) exam.facts = *source.facts();
+  exam.tally = source.tally();
+}
+
+void examine_system(DoctorExam& exam) {
+  auto system = examine_realsense();
+  if (system) exam.system = std::move(*system);
+  if (!system) exam.no_system = std::move(system).error();
+}
+
+/// Whether there is a whole rig to be run.
+bool has_rig(const RealsenseSystem& system) {
+  const auto has_depth = [](const RealsenseFacts& d) { return !d.depth_profiles.empty(); };
+  return std::ranges::any_of(system.devices, has_depth) &&
+         std::ranges::any_of(system.devices, &RealsenseFacts::has_poses);
+}
+
+}  // namespace
+
+Expected<DoctorExam> examine(const std::string& address, Nanoseconds duration,
+                             const std::function<bool()>& stop) {
+  DoctorExam exam{.subject = address};
+  if (address.empty() || is_live(address)) examine_system(exam);
+  if (address.empty() && exam.system && has_rig(*exam.system)) exam.subject = "realsense:";
+  if (exam.subject.empty()) return exam;
+  auto source = open_source(exam.subject);
+  if (source) {
+    examine_source(**source, duration, stop, exam);
+    return exam;
+  }
+  if (source.error().code == ErrorCode::kUsage || source.error().code == ErrorCode::kInvalidConfig)
+    return forward_error(std::move(source));
+  exam.fault = std::move(source).error();
+  return exam;
+}
+
+}  // namespace swiftlet::app

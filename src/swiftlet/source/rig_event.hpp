@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace swiftlet {
+
+/// What happens to the instruments of a live rig. The flight goes on.
+enum class RigEventKind : std::uint8_t {
+  kStarted,     ///< it has been found and started
+  kUnplugged,   ///< it is gone
+  kStalled,     ///< it is there but says nothing any more; it is started again
+  kRestarted,   ///< it delivers again
+  kNotStarted,  ///< it cannot be started, or is not there; tried again twice a second
+  kSlowUsb,     ///< it is on a USB 2 port
+  kBadPose,     ///< a pose from outside could not be read
+};
+inline constexpr std::array<std::string_view, 7> kRigEventNames{
+    "started", "unplugged", "stalled", "restarted", "not_started", "slow_usb", "bad_pose"};
+[[nodiscard]] constexpr std::string_view name_of(RigEventKind kind) {
+  return kRigEventNames[static_cast<std::size_t>(kind)];
+}
+
+/// How often each has happened, by kind.
+using RigEventCounts = std::array<std::size_t, kRigEventNames.size()>;
+
+struct RigEvent {
+  RigEventKind kind;
+  std::string who;   ///< the instrument, as in "camera 'front'"
+  std::string what;  ///< one sentence, what to do included; may be empty
+};
+
+}  // namespace swiftlet
