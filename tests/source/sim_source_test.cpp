@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "swiftlet/source/sources.hpp"
 
 #if SWIFTLET_HAS_EMBREE
@@ -91,6 +93,14 @@ TEST_F(SimSourceTest, without_noise_delivers_the_scene_frame_itself) {
   EXPECT_LT(angle_rad, 1e-4);
 }
 
+TEST_F(SimSourceTest, without_drift_changes_the_poses_and_not_the_images) {
+  const auto drifting = all_frames(*open()), steady = all_frames(*open("?drift=off"));
+  ASSERT_EQ(steady.size(), drifting.size());
+  EXPECT_TRUE(
+      std::ranges::equal(steady.back().depth.raw.pixels(), drifting.back().depth.raw.pixels()));
+  EXPECT_LT(worst_pose(steady).first, worst_pose(drifting).first);
+}
+
 TEST_F(SimSourceTest, refuses_and_counts_frames_before_the_tracker_is_sure_of_itself) {
   const auto source = open();
   const auto frames = all_frames(*source);
@@ -128,7 +138,7 @@ TEST_F(SimSourceTest, starts_in_the_middle_of_the_flight_without_moving_the_worl
 
 TEST_F(SimSourceTest, refuses_options_that_cannot_be_meant) {
   for (const std::string bad :
-       {"?sed=3", "?seed=x", "?noise=maybe", "?start=-1", "?frames", "?start=99"}) {
+       {"?sed=3", "?seed=x", "?noise=maybe", "?drift=1", "?start=-1", "?frames", "?start=99"}) {
     const auto source = open_source("sim:" + path_ + bad);
     ASSERT_FALSE(source) << bad;
     EXPECT_EQ(source.error().code, ErrorCode::kUsage) << bad;

@@ -67,6 +67,8 @@ Expected<SimFlight> read_sim_flight(std::string_view rest) {
   scene->camera.rate_hz = options->rate_hz.value_or(scene->camera.rate_hz);
   scene->camera.barrel = options->barrel.value_or(scene->camera.barrel);
   if (!options->has_noise) make_ideal(*scene);
+  if (!options->has_drift)
+    scene->tracker.drift_m_per_sqrt_s = scene->tracker.yaw_drift_rad_per_sqrt_s = 0.0;
   if (!options->rig_file) place_cameras(*scene, options->cameras, options->rig);
   SimFlight flight{std::move(*scene), std::move(*options), {}};
   for (const RigCamera& camera : flight.options.rig.cameras)

@@ -14,9 +14,14 @@ namespace swiftlet {
 namespace {
 
 constexpr std::string_view kOwnOptions =
-    "seed=N, noise=on|off, start=SECONDS, frames=N, rate=HZ, barrel=SHARE, cameras=1..8, "
-    "shuffle=N, fault=NAME, "
-    "fault_at=SECONDS";
+    "seed=N, noise=on|off, drift=on|off, start=SECONDS, frames=N, rate=HZ, barrel=SHARE, "
+    "cameras=1..8, shuffle=N, fault=NAME, fault_at=SECONDS";
+
+/// "on" or "off"; false if it is neither.
+bool apply_switch(std::string_view value, bool& out) {
+  out = value == "on";
+  return value == "on" || value == "off";
+}
 
 /// A time since the start; false if it cannot be meant.
 bool apply_time(std::string_view value, Stamp& out) {
@@ -40,10 +45,8 @@ bool apply(std::string_view key, std::string_view value, SimOptions& options) {
   }
   if (key == "fault") return !(options.fault = value)->empty();
   if (key == "fault_at") return apply_time(value, options.fault_at);
-  if (key == "noise") {
-    options.has_noise = value == "on";
-    return value == "on" || value == "off";
-  }
+  if (key == "noise") return apply_switch(value, options.has_noise);
+  if (key == "drift") return apply_switch(value, options.has_drift);
   if (key == "cameras") {
     options.cameras = number_from<std::size_t>(value).value_or(0);
     return options.cameras >= 1 && options.cameras <= kMaxCameras;

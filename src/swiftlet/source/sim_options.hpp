@@ -18,6 +18,7 @@ namespace swiftlet {
 struct SimOptions {
   std::optional<std::uint64_t> seed;
   bool has_noise = true;
+  bool has_drift = true;  // of the tracker
   Nanoseconds start{0};
   std::optional<std::size_t> frames;
   std::optional<double> rate_hz;  // of the depth camera, instead of the scene's
