@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <mutex>
-#include <ranges>
 #include <utility>
 
 #include "swiftlet/source/pose_line.hpp"
@@ -137,10 +137,11 @@ class RealsenseRecording final : public LiveRecording {
 
   [[nodiscard]] fs::path file_of(std::string_view kind, std::string_view serial) const {
     const std::lock_guard lock(mutex_);
-    for (const File& file : std::views::reverse(files_)) {
-      if (file.kind == kind && (serial.empty() || file.serial == serial)) return file.path;
-    }
-    return {};
+    const auto is_it = [&](const File& file) {
+      return file.kind == kind && (serial.empty() || file.serial == serial);
+    };
+    const auto newest = std::find_if(files_.rbegin(), files_.rend(), is_it);
+    return newest != files_.rend() ? newest->path : fs::path();
   }
 
   const fs::path folder_;
