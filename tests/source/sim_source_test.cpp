@@ -6,12 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "swiftlet/source/sources.hpp"
 
 #if SWIFTLET_HAS_EMBREE
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
