@@ -4,7 +4,7 @@
 // node scripts/measure.mjs URL [MINUTES]
 // What the page costs, in a browser without a screen: time until its map is the mapper's, cell for cell, draw calls,
 // frames a second, and the memory of the tab, once a minute. The figures in the docs:
-//     swiftlet map 'sim:apartment?rate=1' --set map.voxel_m=0.045 --set depth.max_range_m=6 -o big.swl
+//     swiftlet map 'sim:apartment?rate=1' --set map.voxel_m=0.044 --set depth.max_range_m=6 -o big.swl
 //     swiftlet view big.swl
 //     node web/scripts/measure.mjs http://127.0.0.1:8080/
 
