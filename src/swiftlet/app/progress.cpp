@@ -73,7 +73,7 @@ void Progress::update(std::size_t done) {
   }
 }
 
-void Progress::tell(const std::string& text) {
+void Progress::tell(const std::string& text) const {
   show((is_terminal_ ? kClearLine : "") + text + "\n");
 }
 

@@ -32,7 +32,7 @@ class Progress {
   /// Cheap enough for every frame.
   void update(std::size_t done);
   /// A line of its own above the progress.
-  void tell(const std::string& text);
+  void tell(const std::string& text) const;
   /// Ends the line that a terminal shows.
   void finish();
   [[nodiscard]] double elapsed_s() const;

@@ -38,7 +38,8 @@ std::string value_of(const std::optional<double>& value, Unit unit) {
 
 /// Those that nothing warns of first, in the order of their cells otherwise.
 std::vector<Finding> worst_first(std::vector<Finding> findings) {
-  std::ranges::stable_partition(findings, [](const Finding& f) { return !f.is_warned; });
+  std::stable_partition(findings.begin(), findings.end(),
+                        [](const Finding& f) { return !f.is_warned; });
   return findings;
 }
 

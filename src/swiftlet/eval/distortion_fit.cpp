@@ -71,14 +71,15 @@ Round fit_round(const WallImages& wall, const Terms& before, double reach_m) {
 }
 
 constexpr int kTilesX = 16, kTilesY = 9;
+constexpr std::size_t kTiles = std::size_t{kTilesX} * kTilesY;
 
 /// Sum and count of the depths of each tile.
 struct Tile {
   double sum_m = 0.0;
   std::size_t readings = 0;
 };
-std::array<Tile, kTilesX * kTilesY> tiles_of(const WallImages& wall) {
-  std::array<Tile, kTilesX * kTilesY> tiles{};
+std::array<Tile, kTiles> tiles_of(const WallImages& wall) {
+  std::array<Tile, kTiles> tiles{};
   const int width = wall.lens.width(), height = wall.lens.height();
   for_each_point(wall, [&](int u, int v, const Eigen::Vector3d& p) {
     const int place = v * kTilesY / height * kTilesX + u * kTilesX / width;

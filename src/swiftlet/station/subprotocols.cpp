@@ -9,7 +9,7 @@
 namespace swiftlet::station {
 namespace {
 
-constexpr std::size_t kMaxFoxgloveMessage = 16 * 1024;  // names of channels, as JSON
+constexpr std::size_t kMaxFoxgloveMessage = std::size_t{16} * 1024;  // names of channels, as JSON
 
 }  // namespace
 
