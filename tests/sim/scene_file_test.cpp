@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 
 #include "swiftlet/sim/built_in_scenes.hpp"
 #include "swiftlet/sim/stereo_camera.hpp"
@@ -112,6 +113,7 @@ TEST(SceneFile, reads_what_it_says) {
 
 struct Fault {
   std::string_view replaced, by, place, what;
+  friend void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.what; }
 };
 class FaultyScene : public ::testing::TestWithParam<Fault> {};
 
