@@ -123,9 +123,7 @@ std::size_t GhostDecay::decay_block(const CubeView& view, const BlockIndex& inde
   const VoxelBlock* known = map.find(index);
   const CubeInView whole = view.cube(first_voxel(index), kBlockEdge);
   if (!is_any_above_unknown(*known) || !may_show_nothing(view, whole)) return 0;
-  const std::array<Float3, 3> axis = view.world_axis();
-  CubeInView cell;
-  for (int i = 0; i < 3; ++i) cell.half_camera[i] = whole.half_camera[i] / kBlockEdge;
+  const VoxelIndex corner = first_voxel(index);
   VoxelBlock* block = nullptr;
   std::size_t count = 0;
   for (int first = 0; first < kBlockVoxels; first += kBlockEdge) {
@@ -133,15 +131,9 @@ std::size_t GhostDecay::decay_block(const CubeView& view, const BlockIndex& inde
     for (int x = 0; x < kBlockEdge; ++x) {
       const std::size_t place = static_cast<std::size_t>(first) + static_cast<std::size_t>(x);
       if (known->cells[place] <= kUnknownCell) continue;
-      const std::array<int, 3> from_first{x, first / kBlockEdge % kBlockEdge,
-                                          first / (kBlockEdge * kBlockEdge)};
-      cell.p_camera = whole.p_camera;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const float step =
-            (static_cast<float>(from_first[k]) - 0.5F * (kBlockEdge - 1)) * view.voxel_m();
-        for (int i = 0; i < 3; ++i) cell.p_camera[i] += step * axis[k][i];
-      }
-      if (!is_nothing_there(view, cell)) continue;
+      const VoxelIndex cell{corner.x + x, corner.y + first / kBlockEdge % kBlockEdge,
+                            corner.z + first / (kBlockEdge * kBlockEdge)};
+      if (!is_nothing_there(view, view.cube(cell, 1))) continue;
       if (block == nullptr) known = block = &map.writable(index);
       block->cells[place] =
           static_cast<LogOdds>(std::max<std::int32_t>(block->cells[place] - steps, kUnknownCell));
