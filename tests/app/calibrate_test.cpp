@@ -21,12 +21,11 @@ constexpr const char* kBent = "sim:calibration?barrel=0.1&frames=40";
 
 TEST(Calibrate, brings_a_barrel_of_a_tenth_below_one_percent_all_over_the_image) {
   const TempFolder folder;
-  const Ended ended = run({"calibrate", "distortion", kBent, "--distance", "1.4", "--check",
-                           "sim:calibration?barrel=0.1&start=4.2&frames=40", "2.8", "-o",
-                           "distortion.yaml", "--report", "bent", "--json"},
-                          folder.path());
-  ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  const auto walls = nlohmann::json::parse(ended.out).at("walls");
+  const auto walls = run_for_json({"calibrate", "distortion", kBent, "--distance", "1.4", "--check",
+                                   "sim:calibration?barrel=0.1&start=4.2&frames=40", "2.8", "-o",
+                                   "distortion.yaml", "--report", "bent", "--json"},
+                                  folder.path())
+                         .at("walls");
   ASSERT_EQ(walls.size(), 2U);
   EXPECT_GT(walls[0].at("error_raw"), 0.1);
   EXPECT_LT(walls[0].at("error_self_calibrated"), 0.01);
@@ -65,9 +64,7 @@ TEST(Calibrate, what_it_writes_is_a_config_with_which_the_wall_is_flat) {
 
 TEST(Calibrate, estimates_the_distance_if_it_is_not_told) {
   const TempFolder folder;
-  const Ended ended = run({"calibrate", "distortion", kBent, "--json"}, folder.path());
-  ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  const auto json = nlohmann::json::parse(ended.out);
+  const auto json = run_for_json({"calibrate", "distortion", kBent, "--json"}, folder.path());
   EXPECT_NEAR(double{json.at("walls")[0].at("distance_m")}, 1.4, 0.01);
   EXPECT_EQ(json.at("distortion").at("offset_m"), 0.0);
 }

@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "app/support/run_program.hpp"
 #include "support/bag_writer.hpp"
 #include "support/recordings.hpp"
@@ -19,10 +17,10 @@ using ::testing::HasSubstr;
 #if SWIFTLET_HAS_EMBREE
 TEST(CharacterizeFill, tells_how_readings_are_lost_as_a_wall_tilts) {
   const TempFolder folder;
-  const Ended ended =
-      run({"characterize", "fill", "sim:tilt?rate=4", "-o", "fill", "--json"}, folder.path());
-  ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  const auto rows = nlohmann::json::parse(ended.out).at("by_tilt_deg");
+  const auto rows =
+      run_for_json({"characterize", "fill", "sim:tilt?rate=4", "-o", "fill", "--json"},
+                   folder.path())
+          .at("by_tilt_deg");
   ASSERT_GT(rows.size(), 10U);
   EXPECT_EQ(rows.front().at("tilt_deg"), 0.0);
   EXPECT_GT(rows.front().at("of_middle"), 0.99);
@@ -67,9 +65,8 @@ void write_sweep(const std::filesystem::path& path) {
 TEST(CharacterizeFill, reads_exposure_and_laser_power_from_a_recording_without_poses) {
   const TempFolder folder;
   write_sweep(folder / "sweep.bag");
-  const Ended ended = run({"characterize", "fill", "bag:sweep.bag", "--json"}, folder.path());
-  ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  const auto json = nlohmann::json::parse(ended.out);
+  const auto json =
+      run_for_json({"characterize", "fill", "bag:sweep.bag", "--json"}, folder.path());
   EXPECT_EQ(json.at("frames"), 4);
   const auto& exposure = json.at("by_exposure_ms");
   ASSERT_EQ(exposure.size(), 2U);

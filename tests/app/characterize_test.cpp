@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "app/support/run_program.hpp"
 #include "support/recordings.hpp"
 
@@ -17,10 +15,10 @@ using ::testing::HasSubstr;
 #if SWIFTLET_HAS_EMBREE
 TEST(Characterize, recovers_the_disparity_error_of_the_simulated_camera_and_writes_it_down) {
   const TempFolder folder;
-  const Ended ended =
-      run({"characterize", "noise", "sim:wall?frames=8", "-o", "d435", "--json"}, folder.path());
-  ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  const double s_px = nlohmann::json::parse(ended.out).at("subpixel_px");
+  const double s_px =
+      run_for_json({"characterize", "noise", "sim:wall?frames=8", "-o", "d435", "--json"},
+                   folder.path())
+          .at("subpixel_px");
   EXPECT_NEAR(s_px, 0.08, 0.05 * 0.08);
   EXPECT_THAT(content_of(folder / "d435" / "sensor.yaml"), HasSubstr("subpixel_px: 0.08"));
   EXPECT_THAT(content_of(folder / "d435" / "noise.csv"), HasSubstr("test,"));

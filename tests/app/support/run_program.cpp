@@ -103,4 +103,11 @@ Ended run(const std::vector<std::string>& arguments, const std::filesystem::path
   return RunningProgram(arguments, folder, file_limit_bytes).wait();
 }
 
+nlohmann::json run_for_json(const std::vector<std::string>& arguments,
+                            const std::filesystem::path& folder) {
+  const Ended ended = run(arguments, folder);
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  return nlohmann::json::parse(ended.out);
+}
+
 }  // namespace swiftlet::test

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -49,5 +50,9 @@ class RunningProgram {
 /// Runs it to its end.
 [[nodiscard]] Ended run(const std::vector<std::string>& arguments,
                         const std::filesystem::path& folder, std::uint64_t file_limit_bytes = 0);
+
+/// Runs it to its end, which must be a good one, and reads what it says as JSON.
+[[nodiscard]] nlohmann::json run_for_json(const std::vector<std::string>& arguments,
+                                          const std::filesystem::path& folder);
 
 }  // namespace swiftlet::test
