@@ -25,7 +25,7 @@ class Sight : public ::testing::Test {
  protected:
   const sim::RayCaster world_ = sim::RayCaster::create(wall_and_rod()).value();
   const PinholeIntrinsics lens_ =
-      PinholeIntrinsics::from_field_of_view(848, 480, sim::radians(91.2)).value();
+      PinholeIntrinsics::from_field_of_view(848, 480, radians(91.2)).value();
   const Transform<World, Camera> T_world_camera_ =
       Transform<World, Body>{} * forward_looking_camera();
   const TrueView view_{lens_, T_world_camera_};
@@ -79,7 +79,7 @@ TEST(TruePose, is_where_an_ideal_tracker_says_it_is) {
 TEST(Movers, are_seen_where_they_are_and_looked_through_where_they_were) {
   const sim::Scene scene = sim::load_scene("walker").value();
   auto world = sim::RayCaster::create(scene).value();
-  const auto lens = PinholeIntrinsics::from_field_of_view(848, 480, sim::radians(91.2)).value();
+  const auto lens = PinholeIntrinsics::from_field_of_view(848, 480, radians(91.2)).value();
   const VoxelBox box{{20, -20, 0}, {40, 45, 18}};
   const auto sights_at = [&](Nanoseconds t) {
     world.move_to(t);

@@ -78,8 +78,8 @@ TEST_F(SimSourceTest, delivers_the_true_poses_within_the_noise_of_the_tracker) {
   // and 0.05 deg tilts the 7 cm lever by nothing that counts. It must not be zero either.
   EXPECT_LT(distance_m, 0.030);
   EXPECT_GT(distance_m, 0.0005);
-  EXPECT_LT(angle_rad, 5 * sim::radians(0.05) * std::sqrt(3.0));
-  EXPECT_GT(angle_rad, sim::radians(0.01));
+  EXPECT_LT(angle_rad, 5 * radians(0.05) * std::sqrt(3.0));
+  EXPECT_GT(angle_rad, radians(0.01));
 }
 
 TEST_F(SimSourceTest, without_noise_delivers_the_scene_frame_itself) {

@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-#include <filesystem>
 #include <utility>
 
 #include "swiftlet/app/calibration.hpp"
+#include "swiftlet/app/text_output.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -35,17 +34,10 @@ std::string calibration_text(const CalibratedWall& wall) {
 }
 
 Status write_calibration_report(const std::string& folder, std::span<const CalibratedWall> walls) {
-  std::error_code refused;
-  std::filesystem::create_directories(folder, refused);
-  if (refused) return fail(ErrorCode::kIo, folder, "the folder cannot be made");
+  if (auto made = make_folder(folder); !made) return made;
   std::vector<ExperimentRun> runs;
   for (const CalibratedWall& wall : walls) runs.push_back(run_of(wall));
-  const auto has_figures =
-      write_report(runs, folder, {"Depth distortion", "walls are as flat as expected", "wall"});
-  if (!has_figures) return tl::make_unexpected(has_figures.error());
-  if (!*has_figures)
-    std::fputs("figures are not drawn: install gnuplot (Debian: gnuplot-nox)\n", stderr);
-  return Done{};
+  return write_report(runs, folder, {"Depth distortion", "walls are as flat as expected", "wall"});
 }
 
 nlohmann::ordered_json calibration_json(std::span<const CalibratedWall> walls) {

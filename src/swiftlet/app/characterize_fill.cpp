@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "swiftlet/app/characterize.hpp"
 #include "swiftlet/app/experiment.hpp"
+#include "swiftlet/app/text_output.hpp"
+#include "swiftlet/base/angle.hpp"
 #include "swiftlet/eval/fill.hpp"
 #include "swiftlet/eval/wall_noise.hpp"
 #include "swiftlet/source/depth_recording.hpp"
@@ -65,8 +65,7 @@ void add_image(const DepthFrame& frame, const CaptureSettings& settings, FillSwe
   ++sweeps.frames;
   const auto wall = eval::measure_wall(frame.depth, frame.intrinsics);
   if (wall && wall->rms_m < kFlat * wall->distance_m) {
-    const double tilt_deg = wall->tilt_rad * 180.0 / std::numbers::pi;
-    sweeps.tilt.by[rounded(tilt_deg, kTiltStep_deg)].add(fill);
+    sweeps.tilt.by[rounded(degrees(wall->tilt_rad), kTiltStep_deg)].add(fill);
   }
   if (settings.exposure_us)
     sweeps.exposure.by[rounded(1e-3 * *settings.exposure_us, kExposureStep_ms)].add(fill);
@@ -102,12 +101,10 @@ Figure figure_of(const FillSweep& sweep) {
 }
 
 Status draw(const FillSweeps& sweeps, const std::string& folder) {
-  std::error_code refused;
-  std::filesystem::create_directories(folder, refused);
-  if (refused) return fail(ErrorCode::kIo, folder, "the folder cannot be made");
+  if (auto made = make_folder(folder); !made) return made;
   for (const FillSweep* sweep : sweeps.known()) {
-    const auto drawn = draw_figure(figure_of(*sweep), folder);
-    if (!drawn) return tl::make_unexpected(drawn.error());
+    if (auto drawn = draw_figure(figure_of(*sweep), folder); !drawn)
+      return forward_error(std::move(drawn));
   }
   return Done{};
 }

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "swiftlet/app/characterize.hpp"
 #include "swiftlet/app/experiment.hpp"
+#include "swiftlet/app/text_output.hpp"
 #include "swiftlet/eval/wall_noise.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 #include "swiftlet/source/depth_recording.hpp"
@@ -63,17 +63,12 @@ Figure figure_of(const Walls& walls, double s_px) {
 
 /// The figure, its numbers, and the parameter as `swiftlet map --config` reads it.
 Status write_results(const std::string& folder, const Walls& walls, double s_px) {
-  std::error_code refused;
-  std::filesystem::create_directories(folder, refused);
-  if (refused) return fail(ErrorCode::kIo, folder, "the folder cannot be made");
-  const auto drawn = draw_figure(figure_of(walls, s_px), folder);
-  if (!drawn) return tl::make_unexpected(drawn.error());
-  const std::string path = (std::filesystem::path(folder) / "sensor.yaml").string();
-  std::ofstream file(path);
-  file << fmt::format("sensor:\n  baseline_m: {}\n  subpixel_px: {:.4f}\n", walls.baseline_m, s_px);
-  file.flush();
-  if (file) return Done{};
-  return fail(ErrorCode::kIo, path, "the file cannot be written");
+  if (auto made = make_folder(folder); !made) return made;
+  if (auto drawn = draw_figure(figure_of(walls, s_px), folder); !drawn)
+    return forward_error(std::move(drawn));
+  return write_text(
+      std::filesystem::path(folder) / "sensor.yaml",
+      fmt::format("sensor:\n  baseline_m: {}\n  subpixel_px: {:.4f}\n", walls.baseline_m, s_px));
 }
 
 }  // namespace

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "swiftlet/app/calibration.hpp"
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/app/text_output.hpp"
+#include "swiftlet/base/angle.hpp"
 #include "swiftlet/base/number_text.hpp"
 
 namespace swiftlet::app {
@@ -45,21 +45,13 @@ std::string config_block(const CalibratedWall& wall) {
       d.y2_per_m, d.x1, d.y1, d.offset_m);
 }
 
-Status write_block(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.flush();
-  if (file) return Done{};
-  return fail(ErrorCode::kIo, path, "the file cannot be written", "is its folder there?");
-}
-
 void print_walls(std::span<const CalibratedWall> walls) {
   for (const CalibratedWall& wall : walls) {
     fmt::print(
         "{}: {} frames of a wall at {:.3f} m; mean error of the worst of 16 x 9 tiles:\n  {}\n",
         wall.source, wall.raw.images.size(), wall.distance_m, calibration_text(wall));
   }
-  const double tilt_deg = eval::tilt_rad(walls.front().self.distortion) * 180.0 / std::numbers::pi;
+  const double tilt_deg = degrees(eval::tilt_rad(walls.front().self.distortion));
   constexpr double kMostTilt_deg = 2.0;
   if (tilt_deg > kMostTilt_deg) {
     fmt::print(
@@ -89,7 +81,7 @@ Faults calibrate(const CalibrateOptions& options) {
   }
   const std::string block = config_block(walls.front());
   if (!options.out.empty()) {
-    if (auto written = write_block(options.out, block); !written)
+    if (auto written = write_text(options.out, block); !written)
       return fault_of(std::move(written));
   }
   if (!options.report.empty()) {

@@ -105,7 +105,7 @@ void print_json(const DoctorExam& exam, const std::vector<Diagnosis>& all) {
 }
 
 Faults doctor(const DoctorOptions& options) {
-  std::string address = options.source == "realsense" ? "realsense:" : options.source;
+  std::string address = realsense_address(options.source);
   if (!address.empty()) address = options.rig.added_to(address);
   const InterruptGuard interrupt;
   const auto exam = examine(address, Nanoseconds(std::llround(options.seconds * 1e9)),

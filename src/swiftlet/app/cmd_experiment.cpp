@@ -10,6 +10,7 @@
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/experiment.hpp"
+#include "swiftlet/app/text_output.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -46,12 +47,7 @@ void print(const std::vector<ExperimentRun>& runs, const ExperimentOptions& opti
 }
 
 Faults experiment(const ExperimentOptions& options) {
-  std::error_code refused;
-  std::filesystem::create_directories(options.out, refused);
-  if (refused) {
-    return {{ErrorCode::kIo, options.out, "the folder cannot be made: " + refused.message(),
-             "choose another with -o"}};
-  }
+  if (auto made = make_folder(options.out); !made) return fault_of(std::move(made));
   std::vector<ExperimentRun> runs;
   for (const auto& known : experiments()) {
     if (options.name != "all" && options.name != known.name) continue;
@@ -60,10 +56,7 @@ Faults experiment(const ExperimentOptions& options) {
     runs.push_back(std::move(*run));
   }
   if (runs.empty()) return fault_of(find_registered(experiments(), options.name, "experiment"));
-  const auto has_figures = write_report(runs, options.out);
-  if (!has_figures) return {has_figures.error()};
-  if (!*has_figures)
-    std::fputs("figures are not drawn: install gnuplot (Debian: gnuplot-nox)\n", stderr);
+  if (auto written = write_report(runs, options.out); !written) return fault_of(std::move(written));
   print(runs, options);
   Faults faults;
   for (const ExperimentRun& run : runs) {

@@ -30,8 +30,6 @@ struct RecordOptions {
   double seconds = 0.0;
 };
 
-constexpr std::string_view kLiveKind = "realsense:";
-
 /// Until Ctrl-C or the end of the time. Ends with the files closed.
 std::vector<LiveRecording::Stream> record_until(LiveRecordingPtr recording, double limit_s) {
   const InterruptGuard interrupt;
@@ -77,13 +75,12 @@ Faults report_recording(const std::vector<LiveRecording::Stream>& streams,
 }
 
 Faults record(const RecordOptions& options) {
-  const std::string& source = options.source;
-  const std::string address = source == "realsense" ? std::string(kLiveKind) : source;
-  if (!address.starts_with(kLiveKind)) {
-    return {{ErrorCode::kUsage, source, "only live RealSense cameras can be recorded",
+  const std::string address = realsense_address(options.source);
+  if (!address.starts_with(kRealsenseKind)) {
+    return {{ErrorCode::kUsage, options.source, "only live RealSense cameras can be recorded",
              "write realsense, or realsense:SERIAL"}};
   }
-  const std::string rest = options.rig.added_to(address).substr(kLiveKind.size());
+  const std::string rest = options.rig.added_to(address).substr(kRealsenseKind.size());
   auto recording = record_realsense(rest, options.out);
   if (!recording) return fault_of(std::move(recording));
   return report_recording(record_until(std::move(*recording), options.seconds), rest);

@@ -14,8 +14,6 @@
 namespace swiftlet::app {
 namespace {
 
-bool has_depth(const RealsenseFacts& device) { return !device.depth_profiles.empty(); }
-
 std::string title(const RealsenseFacts& device) {
   return fmt::format("{} ({})", device.name.empty() ? "a device" : device.name, device.serial);
 }
@@ -61,9 +59,9 @@ void check_devices(const DoctorExam& exam, std::vector<Finding>& findings) {
         {Severity::kGood,
          fmt::format("{}: firmware {}, USB {}{}{}", title(device), device.firmware,
                      device.usb.empty() ? "unknown" : device.usb,
-                     has_depth(device) ? ", depth" : "", device.has_poses ? ", poses" : "")});
+                     device.has_depth() ? ", depth" : "", device.has_poses ? ", poses" : "")});
   }
-  if (std::ranges::none_of(devices, has_depth)) {
+  if (std::ranges::none_of(devices, &RealsenseFacts::has_depth)) {
     findings.push_back({Severity::kFault, "no depth camera is connected",
                         "check the cable, the power of the port, and the udev rules of the SDK"});
   }
@@ -88,7 +86,7 @@ void check_firmware(const DoctorExam& exam, std::vector<Finding>& findings) {
 void check_usb(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.system) return;
   for (const RealsenseFacts& device : exam.system->devices) {
-    if (!has_depth(device) || !device.usb.starts_with('2')) continue;
+    if (!device.has_depth() || !device.usb.starts_with('2')) continue;
     findings.push_back(
         {Severity::kFault,
          fmt::format("{} is on USB {}, too slow for its depth", title(device), device.usb),
@@ -101,7 +99,7 @@ void check_profile(const DoctorExam& exam, std::vector<Finding>& findings) {
   constexpr std::string_view kDefault = "848x480@30";
   for (const RealsenseFacts& device : exam.system->devices) {
     const auto& profiles = device.depth_profiles;
-    if (!has_depth(device) || std::ranges::find(profiles, kDefault) != profiles.end()) continue;
+    if (!device.has_depth() || std::ranges::find(profiles, kDefault) != profiles.end()) continue;
     findings.push_back({Severity::kWarning,
                         fmt::format("{} has no depth of {}; it has {}", title(device), kDefault,
                                     fmt::join(profiles, ", ")),

@@ -27,8 +27,6 @@ void note_readings(const Frame& frame, ReadingFacts& facts) {
   facts.medians_m.push_back(static_cast<float>(*middle) * frame.depth.unit_m);
 }
 
-bool is_live(std::string_view address) { return address.starts_with("realsense:"); }
-
 /// Runs a source for a while, in its own time.
 void examine_source(FrameSource& source, Nanoseconds duration, const std::function<bool()>& stop,
                     DoctorExam& exam) {
@@ -63,8 +61,7 @@ void examine_system(DoctorExam& exam) {
 
 /// Whether there is a whole rig to be run.
 bool has_rig(const RealsenseSystem& system) {
-  const auto has_depth = [](const RealsenseFacts& d) { return !d.depth_profiles.empty(); };
-  return std::ranges::any_of(system.devices, has_depth) &&
+  return std::ranges::any_of(system.devices, &RealsenseFacts::has_depth) &&
          std::ranges::any_of(system.devices, &RealsenseFacts::has_poses);
 }
 
@@ -73,8 +70,8 @@ bool has_rig(const RealsenseSystem& system) {
 Expected<DoctorExam> examine(const std::string& address, Nanoseconds duration,
                              const std::function<bool()>& stop) {
   DoctorExam exam{.subject = address};
-  if (address.empty() || is_live(address)) examine_system(exam);
-  if (address.empty() && exam.system && has_rig(*exam.system)) exam.subject = "realsense:";
+  if (address.empty() || address.starts_with(kRealsenseKind)) examine_system(exam);
+  if (address.empty() && exam.system && has_rig(*exam.system)) exam.subject = kRealsenseKind;
   if (exam.subject.empty()) return exam;
   auto source = open_source(exam.subject);
   if (source) {

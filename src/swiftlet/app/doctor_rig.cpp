@@ -8,18 +8,13 @@
 #include <numbers>
 
 #include "swiftlet/app/doctor_checks.hpp"
+#include "swiftlet/base/angle.hpp"
 #include "swiftlet/source/mounts.hpp"
 
 // Where the cameras sit, what they see, and whether the poses can be a vehicle's.
 
 namespace swiftlet::app {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-
-std::string name_of_camera(const DoctorExam& exam, std::size_t camera) {
-  return fmt::format("camera '{}'", exam.rig.cameras[camera].name);
-}
 
 double percent(std::size_t part, std::size_t whole) {
   return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
@@ -55,7 +50,7 @@ void check_mounts(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.facts) return;
   for (std::size_t i = 0; i < exam.rig.cameras.size(); ++i) {
     const auto& mount = exam.rig.cameras[i].T_body_camera;
-    const std::string who = name_of_camera(exam, i);
+    const std::string who = exam.rig.cameras[i].title();
     if (auto sound = check_mount(mount, {}); !sound) {
       findings.push_back(
           {Severity::kFault, fmt::format("{}: {}", who, sound.error().what), sound.error().remedy});
@@ -113,7 +108,7 @@ void check_poses(const DoctorExam& exam, std::vector<Finding>& findings) {
     findings.push_back(
         {Severity::kFault,
          fmt::format("the body is never less than {:.0f} degrees from upright",
-                     *poses.least_tilt_rad * kDegPerRad),
+                     degrees(*poses.least_tilt_rad)),
          "the axes of the poses are others than told: check pose.axes (rep103: x forward, "
          "y left, z up; t265: x right, y up, z backward)"});
   if (exam.tally.pose_jumps > 0)
@@ -144,7 +139,7 @@ void check_depth_units(const DoctorExam& exam, std::vector<Finding>& findings) {
                         : fmt::format("; half of what it sees is nearer than {:.2f} m", median_m);
     findings.push_back(
         {is_odd ? Severity::kWarning : Severity::kGood,
-         fmt::format("{}: {:g} m a step{}", name_of_camera(exam, i), camera.unit_m, seen),
+         fmt::format("{}: {:g} m a step{}", exam.rig.cameras[i].title(), camera.unit_m, seen),
          is_odd ? "that is no room: check Depth Units (D435: 0.001, D405: 0.0001) or depth_unit_m"
                 : ""});
   }
@@ -157,7 +152,7 @@ void check_readings(const DoctorExam& exam, std::vector<Finding>& findings) {
     const double share = percent(readings.readings, readings.pixels);
     findings.push_back(
         {share < 25.0 ? Severity::kWarning : Severity::kGood,
-         fmt::format("{}: {:.0f} % of the pixels hold a depth", name_of_camera(exam, i), share),
+         fmt::format("{}: {:.0f} % of the pixels hold a depth", exam.rig.cameras[i].title(), share),
          share < 25.0 ? "emitter and auto-exposure on? not nearer than 0.3 m? lens clean?" : ""});
   }
 }

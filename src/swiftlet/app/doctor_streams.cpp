@@ -12,10 +12,6 @@
 namespace swiftlet::app {
 namespace {
 
-std::string title(const DoctorExam& exam, std::size_t camera) {
-  return fmt::format("camera '{}'", exam.rig.cameras[camera].name);
-}
-
 /// The clock of most samples.
 ClockDomain clock_of(const StreamFacts& stream) {
   const auto most = std::ranges::max_element(stream.clocks);
@@ -69,8 +65,8 @@ void check_clocks(const DoctorExam& exam, std::vector<Finding>& findings) {
   for (std::size_t i = 0; i < exam.facts->cameras.size(); ++i) {
     const CameraFacts& camera = exam.facts->cameras[i];
     if (camera.samples == 0) continue;
-    check_mixture(title(exam, i), camera, findings);
-    check_clock_of(title(exam, i), camera, exam.facts->poses, findings);
+    check_mixture(exam.rig.cameras[i].title(), camera, findings);
+    check_clock_of(exam.rig.cameras[i].title(), camera, exam.facts->poses, findings);
   }
 }
 
@@ -78,7 +74,7 @@ void check_depth_rate(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.facts) return;
   for (std::size_t i = 0; i < exam.facts->cameras.size(); ++i) {
     const CameraFacts& camera = exam.facts->cameras[i];
-    const std::string who = title(exam, i);
+    const std::string who = exam.rig.cameras[i].title();
     if (camera.samples == 0) {
       findings.push_back(
           {Severity::kFault, who + ": no image has come",
@@ -146,7 +142,8 @@ void check_overlap(const DoctorExam& exam, std::vector<Finding>& findings) {
         {severity,
          fmt::format(
              "{}: poses cover {:.0f} % of its time ({:+.3f} s at its start, {:+.3f} s at its end)",
-             title(exam, i), 100.0 * share, seconds(*poses.first - *camera.first - offset),
+             exam.rig.cameras[i].title(), 100.0 * share,
+             seconds(*poses.first - *camera.first - offset),
              seconds(*poses.last - *camera.last - offset)),
          severity == Severity::kGood
              ? ""

@@ -72,9 +72,9 @@ struct ReportHead {
 };
 
 /// Writes FOLDER/report.html, one page that needs nothing else, and draws all figures.
-/// Returns whether there was a gnuplot to draw with. Errors: kIo.
-[[nodiscard]] Expected<bool> write_report(std::span<const ExperimentRun> runs,
-                                          const std::string& folder, const ReportHead& head = {});
+/// Says so on standard error if there is no gnuplot to draw with. Errors: kIo.
+[[nodiscard]] Status write_report(std::span<const ExperimentRun> runs, const std::string& folder,
+                                  const ReportHead& head = {});
 
 /// {"experiments": [{"name", "passed", "expected", "got"}]}, one entry a check.
 [[nodiscard]] nlohmann::ordered_json experiments_json(std::span<const ExperimentRun> runs);

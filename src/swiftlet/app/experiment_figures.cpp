@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "swiftlet/app/experiment.hpp"
+#include "swiftlet/app/text_output.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -21,15 +22,6 @@ namespace fs = std::filesystem;
 
 /// Lines that can be told apart on white and on black (Okabe and Ito 2008, without the black).
 constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
-
-Status write_text(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.flush();
-  if (file) return Done{};
-  return fail(ErrorCode::kIo, path.string(), "the file cannot be written",
-              "is the folder there and the disk not full?");
-}
 
 std::string csv_of(const Figure& figure) {
   std::string csv;

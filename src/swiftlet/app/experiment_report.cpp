@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "swiftlet/app/bench_report.hpp"
 #include "swiftlet/app/experiment.hpp"
+#include "swiftlet/app/text_output.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -91,8 +92,8 @@ std::string checks_table(const ExperimentResult& result) {
 
 }  // namespace
 
-Expected<bool> write_report(std::span<const ExperimentRun> runs, const std::string& folder,
-                            const ReportHead& head) {
+Status write_report(std::span<const ExperimentRun> runs, const std::string& folder,
+                    const ReportHead& head) {
   const auto passed =
       std::ranges::count_if(runs, [](const ExperimentRun& r) { return r.result.is_passed(); });
   const Machine machine = this_machine();
@@ -116,12 +117,9 @@ Expected<bool> write_report(std::span<const ExperimentRun> runs, const std::stri
     }
   }
   html += "</body></html>\n";
-  const std::string path = (std::filesystem::path(folder) / "report.html").string();
-  std::ofstream file(path, std::ios::binary);
-  file << html;
-  file.flush();
-  if (!file) return fail(ErrorCode::kIo, path, "the report cannot be written");
-  return has_figures;
+  if (!has_figures)
+    std::fputs("figures are not drawn: install gnuplot (Debian: gnuplot-nox)\n", stderr);
+  return write_text(std::filesystem::path(folder) / "report.html", html);
 }
 
 nlohmann::ordered_json experiments_json(std::span<const ExperimentRun> runs) {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "swiftlet/base/angle.hpp"
 #include "swiftlet/eval/score.hpp"
 #include "swiftlet/eval/wall_faces.hpp"
 
@@ -107,7 +107,7 @@ std::optional<double> corner_error_deg(const FittedWall& a, const FittedWall& b)
   }
   if (nearest_m >= kMeet_m) return std::nullopt;
   // Both slopes turn their wall the same way about the vertical.
-  return std::abs(std::atan(a.slope) - std::atan(b.slope)) * 180.0 / std::numbers::pi;
+  return degrees(std::abs(std::atan(a.slope) - std::atan(b.slope)));
 }
 
 }  // namespace

@@ -5,21 +5,17 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "swiftlet/base/angle.hpp"
 #include "swiftlet/base/frame_of.hpp"
 #include "swiftlet/sim/flight.hpp"
 #include "swiftlet/sim/triangle_mesh.hpp"
 
 namespace swiftlet::sim {
-
-[[nodiscard]] constexpr double radians(double degrees) {
-  return degrees * std::numbers::pi / 180.0;
-}
 
 /// What a surface gives a stereo matcher to hold on to.
 struct Material {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "swiftlet/base/contract.hpp"
@@ -14,7 +13,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::size_t kMaxEvents = 100;                          // that nobody has taken
 constexpr Nanoseconds kGlance = std::chrono::milliseconds(100);  // at whether to go on waiting
 
 }  // namespace
@@ -59,15 +57,12 @@ void LiveRig::push(DepthFrame depth) {
 void LiveRig::note(RigEvent event) {
   const std::lock_guard lock(mutex_);
   ++event_counts_[static_cast<std::size_t>(event.kind)];
-  if (events_.size() < kMaxEvents) events_.push_back(std::move(event));
+  events_.add(std::move(event));
 }
 
 std::vector<RigEvent> LiveRig::take_events() {
   const std::lock_guard lock(mutex_);
-  std::vector<RigEvent> taken(std::make_move_iterator(events_.begin()),
-                              std::make_move_iterator(events_.end()));
-  events_.clear();
-  return taken;
+  return events_.take();
 }
 
 std::optional<HostTime> LiveRig::last_image(std::size_t camera) const {

@@ -23,7 +23,7 @@ namespace swiftlet {
 /// is lost (kOverload).
 ///
 /// Thread safety: from any thread all but what FrameSource declares; that from the mapper's.
-/// Memory: that of the Rig, `queue.capacity` frames, and the last 100 events.
+/// Memory: that of the Rig, `queue.capacity` frames, and 100 events that nobody has taken.
 class LiveRig final : public FrameSource, public LiveSink {
  public:
   struct Options {
@@ -66,7 +66,7 @@ class LiveRig final : public FrameSource, public LiveSink {
   std::condition_variable changed_;
   Rig rig_;
   std::deque<Frame> queue_;
-  std::deque<RigEvent> events_;
+  RigEventList events_;
   RigEventCounts event_counts_{};
   std::vector<std::optional<HostTime>> last_images_;
   std::optional<HostTime> last_pose_;

@@ -79,11 +79,12 @@ class PoseSocket final : public LiveStream {
 
   void take_line(std::string_view line) {
     if (line.find_first_not_of(" \t\r") == std::string_view::npos || line.starts_with('#')) return;
-    if (const auto pose = parse_pose_line(line, axes_)) return sink_.push(*pose);
+    const auto pose = parse_pose_line(line, axes_);
+    if (pose) return sink_.push(*pose);
     const HostTime now = HostTime::clock::now();
     if (complained_ && now - *complained_ < kComplainEvery) return;
     complained_ = now;
-    sink_.note({RigEventKind::kBadPose, name_, parse_pose_line(line, axes_).error().text()});
+    sink_.note({RigEventKind::kBadPose, name_, pose.error().text()});
   }
 
   Descriptor socket_, wake_;

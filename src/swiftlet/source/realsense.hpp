@@ -18,6 +18,13 @@
 
 namespace swiftlet {
 
+/// What their addresses begin with.
+inline constexpr std::string_view kRealsenseKind = "realsense:";
+/// An address as a command takes it: "realsense" alone means whatever is connected.
+[[nodiscard]] inline std::string realsense_address(const std::string& text) {
+  return text == "realsense" ? std::string(kRealsenseKind) : text;
+}
+
 /// What a connected device tells of itself; empty where it does not.
 struct RealsenseFacts {
   std::string name;
@@ -27,6 +34,8 @@ struct RealsenseFacts {
   std::string usb;                          ///< "3.2", "2.1", ...
   std::vector<std::string> depth_profiles;  ///< as in "848x480@30"
   bool has_poses = false;
+
+  [[nodiscard]] bool has_depth() const { return !depth_profiles.empty(); }
 };
 
 /// The SDK and what is connected.

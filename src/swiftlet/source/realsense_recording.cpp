@@ -41,7 +41,7 @@ class RecordingSink final : public LiveSink {
   }
   void note(RigEvent event) override {
     const std::lock_guard lock(mutex_);
-    if (events_.size() < kMaxEvents) events_.push_back(std::move(event));
+    events_.add(std::move(event));
   }
   void start_poses_anew() override {}
   std::optional<HostTime> last_image(std::size_t camera) const override {
@@ -63,11 +63,10 @@ class RecordingSink final : public LiveSink {
   }
   std::vector<RigEvent> take_events() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(events_, {});
+    return events_.take();
   }
 
  private:
-  static constexpr std::size_t kMaxEvents = 100;
   struct Counter {
     std::size_t samples = 0;
     std::optional<HostTime> last{};
@@ -80,7 +79,7 @@ class RecordingSink final : public LiveSink {
   mutable std::mutex mutex_;
   std::vector<Counter> images_;
   Counter poses_;
-  std::vector<RigEvent> events_;
+  RigEventList events_;
   std::ofstream poses_file_;
 };
 
@@ -108,8 +107,7 @@ class RealsenseRecording final : public LiveRecording {
   std::vector<Stream> streams() const override {
     std::vector<Stream> all;
     for (std::size_t i = 0; i < cameras_.size(); ++i)
-      all.push_back({fmt::format("camera '{}'", cameras_[i].name),
-                     file_of("depth", cameras_[i].stream), sink_.images(i)});
+      all.push_back({cameras_[i].title(), file_of("depth", cameras_[i].stream), sink_.images(i)});
     all.push_back({has_socket_ ? "poses over UDP" : "T265",
                    has_socket_ ? folder_ / kPosesFile : file_of("t265", {}), sink_.poses()});
     return all;

@@ -16,8 +16,6 @@ namespace {
 
 using Taken = std::vector<std::optional<RealsenseDevice>>;
 
-std::string name_of(const RigCamera& camera) { return fmt::format("camera '{}'", camera.name); }
-
 /// The device of a camera: the one of its serial number, or the first that is no other camera's.
 Expected<RealsenseDevice> find_camera(RealsenseDevices& devices, const RealsenseRequest& request,
                                       std::size_t camera, const Taken& taken) {
@@ -33,7 +31,7 @@ Expected<RealsenseDevice> find_camera(RealsenseDevices& devices, const Realsense
   };
   std::string there;
   for (RealsenseDevice& device : devices.list()) {
-    if (device.facts.depth_profiles.empty()) continue;
+    if (!device.facts.has_depth()) continue;
     const std::string& serial = device.facts.serial;
     there += (there.empty() ? "" : ", ") + serial;
     if (wanted.empty() ? !is_others(serial) : wanted == serial) return std::move(device);
@@ -108,7 +106,7 @@ std::vector<LiveInstrument> RealsenseRig::instruments() {
   std::vector<LiveInstrument> all;
   const std::vector<RigCamera>& cameras = request_.rig.rig.cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    all.push_back({name_of(cameras[i]), [this, i] { return connect_camera(i); },
+    all.push_back({cameras[i].title(), [this, i] { return connect_camera(i); },
                    [this, i] { return sink_.last_image(i); }});
   }
   const auto last_pose = [this] { return sink_.last_pose(); };
@@ -141,7 +139,7 @@ Expected<LiveStreamPtr> RealsenseRig::connect_camera(std::size_t camera) {
   auto device = find_camera(*devices_, request_, camera, taken);
   if (!device) return forward_error(std::move(device));
   if (device->facts.usb.starts_with('2')) {
-    sink_.note({RigEventKind::kSlowUsb, name_of(request_.rig.rig.cameras[camera]),
+    sink_.note({RigEventKind::kSlowUsb, request_.rig.rig.cameras[camera].title(),
                 "it is on a USB 2 port: use a USB 3 port and cable of its own"});
   }
   return with_sdk([&]() -> Expected<LiveStreamPtr> {

@@ -28,6 +28,9 @@ struct RigCamera {
   Nanoseconds pose_offset{0};
   double baseline_m = 0.0;  ///< of its stereo pair; 0: as the mapper is configured
   std::string stream{};     ///< topic, serial number or folder that it comes from; empty: found
+
+  /// For people: "camera 'depth'".
+  [[nodiscard]] std::string title() const { return "camera '" + name + "'"; }
 };
 
 /// How an image gets its pose.

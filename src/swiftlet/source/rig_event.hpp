@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace swiftlet {
 
@@ -34,6 +36,19 @@ struct RigEvent {
   RigEventKind kind;
   std::string who;   ///< the instrument, as in "camera 'front'"
   std::string what;  ///< one sentence, what to do included; may be empty
+};
+
+/// Events that wait to be taken; the first 100. Not thread safe.
+class RigEventList {
+ public:
+  void add(RigEvent event) {
+    if (waiting_.size() < kMost) waiting_.push_back(std::move(event));
+  }
+  [[nodiscard]] std::vector<RigEvent> take() { return std::exchange(waiting_, {}); }
+
+ private:
+  static constexpr std::size_t kMost = 100;
+  std::vector<RigEvent> waiting_;
 };
 
 }  // namespace swiftlet
