@@ -90,22 +90,29 @@ bool FrameEvidence::collect(const BlockIndex& index, Verdict verdict, const Voxe
 void FrameEvidence::look(const CubeInView& cube, Work& work) const {
   CellList &passed = work.evidence.passed, &sampled = work.evidence.sampled;
   if (passed.count + sampled.count == 0) return;
-  // Tiles of a fraction of a cell's width, and as many samples as there are such tiles.
-  const float width_px = frame_.fx * frame_.voxel_m / std::max(cube.p_camera[2], frame_.voxel_m);
-  const int shift = std::clamp(static_cast<int>(std::lround(std::log2(width_px / kTilesAcross))),
+  // Tiles of a fraction of a cell's width, and as many samples as there are such tiles. What noise
+  // blurs needs to be told apart less finely.
+  const float z_m = std::max(cube.p_camera[2], frame_.voxel_m);
+  const float width_px = frame_.fx * frame_.voxel_m / z_m;
+  const float noise_cells = frame_.sigma_per_z2 * z_m * z_m / frame_.voxel_m;
+  const float tiles_across = std::max(1.0F, kTilesAcross / (1.0F + noise_cells));
+  const int shift = std::clamp(static_cast<int>(std::lround(std::log2(width_px / tiles_across))),
                                ReadingSummaries::kFinestShift, ReadingSummaries::kCoarsestShift);
   const float across = width_px / static_cast<float>(1 << shift);
   const bool is_near = cube.z_near() < kNearCells * frame_.voxel_m;
   const float count =
       is_near ? float{FaceSamples::kMost}
               : std::clamp(kSamplesPerTile * across * across, kFewest, float{FaceSamples::kMost});
-  FaceSamples samples;
-  samples.spread(static_cast<int>(count), cube.p_world, frame_.voxel_m, frame_.world_axis,
-                 frame_number_);
-  const ReadingTiles tiles = summaries_.tiles(shift);
+  CellLook look{.samples = {},
+                .tiles = summaries_.tiles(shift),
+                .is_inside_image = !is_near && view_.is_inside_image(cube)};
+  look.samples.spread(static_cast<int>(count), cube.p_world, frame_.voxel_m, frame_.world_axis,
+                      frame_number_);
+  passed.fill_last_vector();
+  sampled.fill_last_vector();
   FixedSteps* steps = work.evidence.steps.data();
-  fill_passed(frame_, work.block, passed, samples, tiles, steps);
-  fill_sampled(frame_, work.block, sampled, samples, tiles, steps);
+  fill_passed(frame_, work.block, passed, look, steps);
+  fill_sampled(frame_, work.block, sampled, look, steps);
   passed.count = sampled.count = 0;
 }
 

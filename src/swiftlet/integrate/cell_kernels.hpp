@@ -24,8 +24,8 @@ struct FrameInView {
   float voxel_m;
   float slice_inset_m;  ///< from the nearest point of a cell's cube to the nearest of its slice
   float unit_m, sigma_per_z2;
-  const float *rise, *fall;  ///< EvidenceTable
-  std::int32_t row_shift;
+  float per_sigma;           ///< 1 / sigma_per_z2
+  const float* model;        ///< EvidenceTable
   float steps_per_log_odds;  ///< FixedSteps
   float free_log_odds;
 };
@@ -52,6 +52,14 @@ struct CellList {
       for (int i = 0; i < edge; ++i) add(place + i);
     }
   }
+  /// The lanes of the last vector that have no cell do what the first one does.
+  void fill_last_vector() {
+    for (std::size_t i = count; i < count + kSpare; ++i) {
+      x[i] = x[0];
+      y[i] = y[0];
+      z[i] = z[0];
+    }
+  }
 
  private:
   void add(int place) {
@@ -64,6 +72,13 @@ struct CellList {
   }
 };
 
+/// How cells look at their image: the samples on their faces, and the tiles that these fall into.
+struct CellLook {
+  FaceSamples samples;
+  ReadingTiles tiles;
+  bool is_inside_image;  ///< all of the cells: no sample needs to ask
+};
+
 // Each fills the evidence of cells, every cell in a lane of its own, on the widest vectors of this
 // machine. The same bits on all of them: a lane does the same operations in the same order whatever
 // the number of lanes. Evidence is that of a whole frame (method 6); `block` is the whole block.
@@ -73,10 +88,10 @@ void fill_free(const FrameInView& frame, const CellCube& cube, FixedSteps* evide
 
 /// Cells that every reading passes: free as far as the pixels of their image have one.
 void fill_passed(const FrameInView& frame, const CellCube& block, const CellList& cells,
-                 const FaceSamples& samples, const ReadingTiles& tiles, FixedSteps* evidence);
+                 const CellLook& look, FixedSteps* evidence);
 
 /// Any cells: the mean of the inverse sensor model over the tiles at samples of their image.
 void fill_sampled(const FrameInView& frame, const CellCube& block, const CellList& cells,
-                  const FaceSamples& samples, const ReadingTiles& tiles, FixedSteps* evidence);
+                  const CellLook& look, FixedSteps* evidence);
 
 }  // namespace swiftlet

@@ -51,4 +51,18 @@ CubeInView CubeView::cube(const VoxelIndex& first, int edge) const {
   return cube;
 }
 
+bool CubeView::is_inside_image(const CubeInView& cube) const {
+  const float near = cube.z_near(), far = cube.z_far();
+  if (near <= 0.0F) return false;
+  const auto is_in = [&](int axis, float focal, float centre, int size) {
+    const float low = cube.p_camera[axis] - cube.half_camera[axis];
+    const float high = cube.p_camera[axis] + cube.half_camera[axis];
+    const float first = focal * low / (low < 0.0F ? near : far) + centre + 0.5F;
+    const float last = focal * high / (high > 0.0F ? near : far) + centre + 0.5F;
+    constexpr float kMargin_px = 1.0F / 16.0F;
+    return first >= kMargin_px && last <= static_cast<float>(size) - kMargin_px;
+  };
+  return is_in(0, fx_, cx_, width_) && is_in(1, fy_, cy_, height_);
+}
+
 }  // namespace swiftlet

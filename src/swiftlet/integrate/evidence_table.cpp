@@ -4,14 +4,12 @@
 #include "swiftlet/integrate/evidence_table.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
-#include <limits>
 
 namespace swiftlet {
 namespace {
 
-constexpr double kRowDepth_m = 0.1;  // rows stand for at least this much depth
-constexpr std::size_t kRawValues = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
 constexpr double kNarrowest = 1.0 / 32;  // sigma / t of class 0
 
 /// The model of one depth, at distances in units of sigma.
@@ -56,48 +54,53 @@ const std::array<double, 24>& normal_draws() {
   return kDraws;
 }
 
+/// From the slice's centre to the readings' mean [t], where the distances of its two sides, half
+/// [t] to either side and each within +- kReach, sum up to y.
+double centre_at(double y, double half) {
+  constexpr double kReach = EvidenceTable::kReach;
+  if (std::abs(y) <= 2.0 * (kReach - half)) return 0.5 * y;
+  return y == 0.0 ? 0.0 : std::copysign(std::abs(y) - kReach + half, y);
+}
+
+double depth_of_row(int row) {
+  const int code = (row << EvidenceTable::kRowShift) + (1 << (EvidenceTable::kRowShift - 1));
+  return 1.0 / double{std::bit_cast<float>((code + ReadingTiles::kFirstCode)
+                                           << ReadingTiles::kCodeShift)};
+}
+
 }  // namespace
 
-void EvidenceTable::prepare(const StereoSensor& sensor, float unit_m, std::uint16_t farthest) {
-  const Key key{unit_m, sensor.noise().sigma_m(1.0), sensor.model().options()};
-  if (!(key == key_)) start_over(key, sensor.model());
-  const std::size_t rows = static_cast<std::size_t>(farthest >> shift_) + 1;
-  while (rise_.size() < rows * kRowLength) add_row(sensor);
-}
-
-void EvidenceTable::start_over(const Key& key, const InverseSensorModel& model) {
-  key_ = key;
-  unit_m_ = key.unit_m;
-  sigma_per_z2_ = static_cast<float>(key.sigma_per_z2);
-  free_ = static_cast<float>(model.free_log_odds());
-  for (shift_ = 0; unit_m_ * static_cast<float>(1 << shift_) < kRowDepth_m && shift_ < 12;)
-    ++shift_;
-  const std::size_t rows = (kRawValues >> shift_) + 1;
-  for (std::vector<float>* part : {&rise_, &fall_}) {
-    part->clear();
-    part->reserve(rows * kRowLength);
+void EvidenceTable::prepare(const StereoSensor& sensor, float voxel_m, float farthest_m) {
+  const Key key{voxel_m, sensor.noise().sigma_m(1.0), sensor.model().options()};
+  if (!(key == key_)) {
+    key_ = key;
+    free_ = static_cast<float>(sensor.model().free_log_odds());
+    first_row_ = kRows;
+    log_odds_.resize(std::size_t{kRows} * kClasses * kColumns);
   }
+  const int farthest_row = depth_code(farthest_m) >> kRowShift;
+  while (first_row_ > farthest_row) fill_row(--first_row_, sensor);
 }
 
-void EvidenceTable::add_row(const StereoSensor& sensor) {
-  const std::size_t row = rise_.size() / kRowLength;
-  const double sigma_m =
-      sensor.noise().sigma_m(double{unit_m_} * (static_cast<double>(row) + 0.5) * (1 << shift_));
+void EvidenceTable::fill_row(int row, const StereoSensor& sensor) {
+  const double sigma_m = sensor.noise().sigma_m(depth_of_row(row));
+  const double half_sigma = 0.5 * double{key_.voxel_m} / sigma_m;
   const ModelCurve curve(sensor.model(), sigma_m);
+  const auto first = static_cast<std::size_t>(row) * kClasses * kColumns;
   for (int c = 0; c < kClasses; ++c) {
     const double narrow = std::max(kNarrowest, static_cast<double>(c) / (kClasses - 1));
     const double scatter = std::sqrt(1.0 - std::min(1.0, narrow * narrow));
     for (int column = 0; column < kColumns; ++column) {
-      const double d = static_cast<double>(column - kZero) / double{kPerDeviation};
-      double rise = 0.0, fall = 0.0;
+      const double y = static_cast<double>(column - kMiddle) / double{kPerDeviation};
+      const double centre = centre_at(y, half_sigma * narrow);
+      double sum = 0.0;
       for (const double draw : normal_draws()) {
-        const double d_sigma = (d + scatter * draw) / narrow;
-        rise += curve.at(std::min(d_sigma, 0.0));
-        fall += curve.at(std::max(d_sigma, 0.0)) - curve.peak();
+        const double d_sigma = (centre + scatter * draw) / narrow;
+        sum += curve.at(std::min(d_sigma + half_sigma, 0.0)) +
+               curve.at(std::max(d_sigma - half_sigma, 0.0)) - curve.peak();
       }
-      const auto draws = static_cast<double>(normal_draws().size());
-      rise_.push_back(static_cast<float>(rise / draws));
-      fall_.push_back(static_cast<float>(fall / draws));
+      log_odds_[first + static_cast<std::size_t>(c * kColumns + column)] =
+          static_cast<float>(sum / static_cast<double>(normal_draws().size()));
     }
   }
 }

@@ -5,11 +5,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace swiftlet {
 namespace {
 
 constexpr float kGoldenRatio = 0.61803399F;
+
+/// The step from point to point of a lattice of n of them: prime to n, so that all are met, and
+/// about n times the golden ratio, so that the first few are spread over the face, too.
+constexpr auto kStrides = [] {
+  std::array<std::size_t, FaceSamples::kMost + 4> strides{};
+  for (std::size_t n = 1; n < strides.size(); ++n) {
+    strides[n] = (382 * n + 500) / 1000;
+    while (std::gcd(strides[n], n) != 1) ++strides[n];
+  }
+  return strides;
+}();
 
 float fraction(float v) { return v - std::floor(v); }
 
@@ -29,12 +41,13 @@ void FaceSamples::spread(int count, const Float3& p_world, float voxel_m,
     first_[i + 1] = first_[i] + n;
     const Float3 &a = world_axis[(i + 1) % 3], &b = world_axis[(i + 2) % 3];
     // A Fibonacci lattice: even for any number of points.
-    for (std::size_t k = 0; k < n; ++k) {
+    std::size_t k = 0;
+    for (std::size_t at = 0; at < n; ++at, k = (k + kStrides[n]) % n) {
       const float rank = static_cast<float>(k) + 0.5F;
       const float x = (fraction(rank / static_cast<float>(n) + shift) - 0.5F) * voxel_m;
       const float y = (fraction(rank * kGoldenRatio + shift) - 0.5F) * voxel_m;
       for (std::size_t axis = 0; axis < 3; ++axis)
-        places_[first_[i] + k][axis] = x * a[axis] + y * b[axis];
+        places_[first_[i] + at][axis] = x * a[axis] + y * b[axis];
     }
   }
 }

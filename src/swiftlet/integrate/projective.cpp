@@ -20,7 +20,8 @@ using Clock = std::chrono::steady_clock;
 /// Readings of a tile that lie farther apart than this, in cells, are on two sides of an edge.
 constexpr float kMostScatter = 0.35F;
 
-FrameInView look(const CubeView& view, const EvidenceTable& table, float steps_per_log_odds) {
+FrameInView look(const CubeView& view, const EvidenceTable& table, float unit_m,
+                 float steps_per_log_odds) {
   const Float3& a = view.optical_axis();
   const float across_cells = std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]);
   return {.world_axis = view.world_axis(),
@@ -32,11 +33,10 @@ FrameInView look(const CubeView& view, const EvidenceTable& table, float steps_p
           .height = static_cast<float>(view.height()),
           .voxel_m = view.voxel_m(),
           .slice_inset_m = 0.5F * view.voxel_m() * (across_cells - 1.0F),
-          .unit_m = table.unit_m(),
+          .unit_m = unit_m,
           .sigma_per_z2 = table.sigma_per_z2(),
-          .rise = table.rise(),
-          .fall = table.fall(),
-          .row_shift = table.row_shift(),
+          .per_sigma = 1.0F / table.sigma_per_z2(),
+          .model = table.log_odds(),
           .steps_per_log_odds = steps_per_log_odds,
           .free_log_odds = table.free_log_odds()};
 }
@@ -61,15 +61,16 @@ class ProjectiveIntegrator final : public Integrator {
     pyramid_.build(view.depth.raw, team_);
     tally.readings = pyramid_.readings();
     if (tally.readings == 0) return tally;
-    table_.prepare(sensor, view.depth.unit_m, pyramid_.farthest());
     const CubeView cubes(view, map.voxel_m());
+    const float unit_m = view.depth.unit_m;
+    table_.prepare(sensor, cubes.voxel_m(), unit_m * static_cast<float>(pyramid_.farthest()));
     summaries_.build(view.depth.raw,
-                     {.unit_m = table_.unit_m(),
+                     {.unit_m = unit_m,
                       .sigma_per_z2 = table_.sigma_per_z2(),
                       .most_scatter_m = kMostScatter * cubes.voxel_m(),
                       .frame_number = view.frame_number},
                      team_);
-    const FrameInView in_view = look(cubes, table_, steps_per_log_odds_);
+    const FrameInView in_view = look(cubes, table_, unit_m, steps_per_log_odds_);
     const FrameEvidence frame(cubes, pyramid_, summaries_, in_view, view.frame_number);
 
     cubes_.find(map.window(), cubes, frame);

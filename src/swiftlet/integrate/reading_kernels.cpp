@@ -19,11 +19,9 @@ namespace {
 
 using Raws = hn::Rebind<std::uint16_t, Floats>;
 
-/// Four parts of each tile: readings, their mean depth and variance, and what they say by
-/// themselves.
+/// Four parts of each tile: readings, their mean depth [m] and variance.
 struct Parts {
   FloatLanes count[4], mean[4], variance[4];
-  FloatLanes voice[4], narrow[4];  // mean [m] and sqrt(sigma / deviation)
 
   HWY_INLINE Parts() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
 };
@@ -44,7 +42,31 @@ HWY_INLINE FloatLanes draw(std::uint32_t seed, int x) {
   return hn::Mul(hn::ConvertTo(f, h), hn::Set(f, 1.0F / 16777216.0F));
 }
 
-HWY_INLINE void finish(const Parts& p, std::ptrdiff_t x, const SummaryRow& row) {
+/// What readings say together, as the low and the high part of a word.
+struct Voice {
+  IntLanes code, narrow;
+
+  HWY_INLINE Voice() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
+};
+
+HWY_INLINE Voice voice_of(FloatLanes mean, FloatLanes narrow) {
+  constexpr Floats f;
+  constexpr Ints i;
+  const FloatLanes least = hn::Set(f, 1.0F / 64.0F), most = hn::Set(f, 1024.0F);
+  const FloatLanes inverse = hn::Div(hn::Set(f, 1.0F), hn::Min(hn::Max(mean, least), most));
+  const IntLanes bits = hn::Add(hn::BitCast(i, inverse), hn::Set(i, ReadingTiles::kHalfCode));
+  const IntLanes code =
+      hn::Sub(hn::ShiftRight<ReadingTiles::kCodeShift>(bits), hn::Set(i, ReadingTiles::kFirstCode));
+  Voice voice;
+  voice.code = hn::Min(code, hn::Set(i, ReadingTiles::kCodes - 1));
+  voice.narrow = hn::NearestInt(hn::Mul(narrow, hn::Set(f, ReadingTiles::kNarrowest)));
+  return voice;
+}
+
+/// Writes one vector of tiles. `part_says(k)` is the voice of part k.
+template <class PartSays>
+HWY_INLINE void finish(const Parts& p, const PartSays& part_says, std::ptrdiff_t x,
+                       const SummaryRow& row) {
   constexpr Floats f;
   constexpr Ints i;
   const FloatLanes one = hn::Set(f, 1.0F);
@@ -67,22 +89,23 @@ HWY_INLINE void finish(const Parts& p, std::ptrdiff_t x, const SummaryRow& row) 
   const FloatLanes sigma = hn::Mul(hn::Mul(mean, mean), hn::Set(f, row.sigma_per_z2));
   const FloatLanes sigma2 = hn::Mul(sigma, sigma);
   const FloatLanes deviation2 = hn::Max(hn::Add(sigma2, variance), hn::Set(f, 1e-12F));
-  FloatLanes voice = mean;
-  FloatLanes narrow = hn::Sqrt(hn::Sqrt(hn::Div(sigma2, deviation2)));
+  Voice voice = voice_of(mean, hn::Sqrt(hn::Sqrt(hn::Div(sigma2, deviation2))));
   const FloatLanes most = hn::Max(hn::Mul(sigma2, hn::Set(f, kNoiseScatter * kNoiseScatter)),
                                   hn::Set(f, row.most_scatter_m * row.most_scatter_m));
   const auto is_edge = hn::Gt(variance, most);
   if (!hn::AllFalse(f, is_edge)) {
     FloatLanes left = hn::Mul(draw(row.seed, static_cast<int>(x)), count);
-    FloatLanes drawn = p.voice[0], drawn_narrow = p.narrow[0];
+    Voice drawn = part_says(0);
     for (int k = 1; k < 4; ++k) {
       left = hn::Sub(left, p.count[k - 1]);
-      const auto is_later = hn::And(hn::Ge(left, hn::Zero(f)), hn::Gt(p.count[k], hn::Zero(f)));
-      drawn = hn::IfThenElse(is_later, p.voice[k], drawn);
-      drawn_narrow = hn::IfThenElse(is_later, p.narrow[k], drawn_narrow);
+      const auto is_later =
+          hn::RebindMask(i, hn::And(hn::Ge(left, hn::Zero(f)), hn::Gt(p.count[k], hn::Zero(f))));
+      const Voice later = part_says(k);
+      drawn.code = hn::IfThenElse(is_later, later.code, drawn.code);
+      drawn.narrow = hn::IfThenElse(is_later, later.narrow, drawn.narrow);
     }
-    voice = hn::IfThenElse(is_edge, drawn, voice);
-    narrow = hn::IfThenElse(is_edge, drawn_narrow, narrow);
+    voice.code = hn::IfThenElse(hn::RebindMask(i, is_edge), drawn.code, voice.code);
+    voice.narrow = hn::IfThenElse(hn::RebindMask(i, is_edge), drawn.narrow, voice.narrow);
   }
 
   // Tiles at the right edge have fewer columns in the image.
@@ -93,11 +116,9 @@ HWY_INLINE void finish(const Parts& p, std::ptrdiff_t x, const SummaryRow& row) 
               hn::Set(f, width));
   const FloatLanes pixels = hn::Mul(columns, hn::Set(f, static_cast<float>(row.pixel_rows)));
   const FloatLanes share = hn::Div(hn::Mul(count, hn::Set(f, ReadingTiles::kAll)), pixels);
-  const FloatLanes raw = hn::Mul(voice, hn::Set(f, 1.0F / row.unit_m));
-  const auto low = hn::NearestInt(hn::Min(raw, hn::Set(f, 65535.0F)));
-  const auto narrowness = hn::NearestInt(hn::Mul(narrow, hn::Set(f, ReadingTiles::kNarrowest)));
-  const auto high = hn::Or(hn::ShiftLeft<16>(hn::NearestInt(share)), hn::ShiftLeft<24>(narrowness));
-  hn::StoreU(hn::Or(low, high), i, row.words + x);
+  const auto high =
+      hn::Or(hn::ShiftLeft<16>(hn::NearestInt(share)), hn::ShiftLeft<24>(voice.narrow));
+  hn::StoreU(hn::Or(voice.code, high), i, row.words + x);
 }
 
 /// Tiles from column `x` of the two rows of pixels that begin at `upper` and `lower`.
@@ -115,10 +136,9 @@ HWY_INLINE void tiles_of_pixels(const std::uint16_t* upper, const std::uint16_t*
     parts.mean[k] = hn::Mul(hn::ConvertTo(f, hn::PromoteTo(i, raw[k])), unit);
     parts.count[k] = hn::IfThenElseZero(hn::Gt(parts.mean[k], hn::Zero(f)), one);
     parts.variance[k] = hn::Zero(f);
-    parts.voice[k] = parts.mean[k];
-    parts.narrow[k] = one;
   }
-  finish(parts, x, row);
+  finish(
+      parts, [&](int k) { return voice_of(parts.mean[k], one); }, x, row);
 }
 
 void pixels(const std::uint16_t* upper, const std::uint16_t* lower, const SummaryRow& row) {
@@ -134,23 +154,18 @@ void pixels(const std::uint16_t* upper, const std::uint16_t* lower, const Summar
   tiles_of_pixels(ends[0], ends[1], x, row);
 }
 
-HWY_INLINE void load_voices(const std::int32_t* from, float unit_m, FloatLanes* voice,
-                            FloatLanes* narrow) {
-  constexpr Floats f;
+HWY_INLINE Voice voice_in(IntLanes word) {
   constexpr Ints i;
   constexpr hn::RebindToUnsigned<Ints> n;
-  IntLanes word[2];
-  hn::LoadInterleaved2(i, from, word[0], word[1]);
-  for (int k = 0; k < 2; ++k) {
-    const IntLanes raw = hn::And(word[k], hn::Set(i, 0xffff));
-    voice[k] = hn::Mul(hn::ConvertTo(f, raw), hn::Set(f, unit_m));
-    const IntLanes high = hn::BitCast(i, hn::ShiftRight<24>(hn::BitCast(n, word[k])));
-    narrow[k] = hn::Mul(hn::ConvertTo(f, high), hn::Set(f, 1.0F / ReadingTiles::kNarrowest));
-  }
+  Voice voice;
+  voice.code = hn::And(word, hn::Set(i, ReadingTiles::kCodes - 1));
+  voice.narrow = hn::BitCast(i, hn::ShiftRight<24>(hn::BitCast(n, word)));
+  return voice;
 }
 
 void merge(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row) {
   constexpr Floats f;
+  constexpr Ints i;
   for (std::ptrdiff_t x = 0; x < row.tiles; x += static_cast<std::ptrdiff_t>(hn::Lanes(f))) {
     Parts parts;
     hn::LoadInterleaved2(f, upper.count + 2 * x, parts.count[0], parts.count[1]);
@@ -159,9 +174,11 @@ void merge(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row) 
     hn::LoadInterleaved2(f, lower.mean_m + 2 * x, parts.mean[2], parts.mean[3]);
     hn::LoadInterleaved2(f, upper.variance_m2 + 2 * x, parts.variance[0], parts.variance[1]);
     hn::LoadInterleaved2(f, lower.variance_m2 + 2 * x, parts.variance[2], parts.variance[3]);
-    load_voices(upper.words + 2 * x, row.unit_m, parts.voice, parts.narrow);
-    load_voices(lower.words + 2 * x, row.unit_m, parts.voice + 2, parts.narrow + 2);
-    finish(parts, x, row);
+    IntLanes words[4];
+    hn::LoadInterleaved2(i, upper.words + 2 * x, words[0], words[1]);
+    hn::LoadInterleaved2(i, lower.words + 2 * x, words[2], words[3]);
+    finish(
+        parts, [&](int k) { return voice_in(words[k]); }, x, row);
   }
 }
 

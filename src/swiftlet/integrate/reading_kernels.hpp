@@ -3,13 +3,15 @@
 
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 
 namespace swiftlet {
 
 /// The readings of squares of a depth image as a kernel gathers them, one word a tile: from the
 /// lowest bit
-///   16 bits  mean reading [device units]
+///   16 bits  1 / mean depth, as depth_code() says
 ///    8 bits  share of the tile's pixels that have one, in kAll-ths
 ///    8 bits  how narrowly they agree: kNarrowest * sqrt(sigma / deviation), where sigma is that of
 ///            one reading and the deviation that of where the tile's readings put the surface,
@@ -20,7 +22,22 @@ struct ReadingTiles {
   std::int32_t shift;   ///< a tile is 2^shift pixels wide
 
   static constexpr float kAll = 255.0F, kNarrowest = 255.0F;
+
+  // Inverse depths are coded as floats of 4 + 12 bits: in them noise is a constant, so what is near
+  // is told as finely as it was measured, and no kernel divides by a depth.
+  static constexpr int kCodes = 1 << 16;
+  static constexpr int kCodeShift = 11;                    ///< of a float's bits
+  static constexpr int kFirstCode = (127 - 10) << 12;      ///< 2^-10 / m; the last is 2^6 / m
+  static constexpr int kHalfCode = 1 << (kCodeShift - 1);  ///< to round to the nearest
 };
+
+/// The code of a depth [m]: of its inverse, within what codes can say.
+[[nodiscard]] inline int depth_code(float depth_m) {
+  const auto bits = std::bit_cast<std::int32_t>(1.0F / depth_m);
+  return std::clamp(
+      ((bits + ReadingTiles::kHalfCode) >> ReadingTiles::kCodeShift) - ReadingTiles::kFirstCode, 0,
+      ReadingTiles::kCodes - 1);
+}
 
 /// One row of tiles to be summarised, and where to put it. Every array has room for whole vectors.
 struct SummaryRow {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -41,16 +42,25 @@ class ReadingSummaries {
   /// One level. Rows are padded to whole vectors: beyond the image, tiles have no readings.
   struct Level {
     int rows = 0, stride = 0;
-    std::vector<float> count, mean_m, variance_m2;
     std::vector<std::int32_t> words;
   };
-  void lay_out(int width, int height);
-  SummaryRow row_of(int shift, int y, const Options& options);
-  static FinerRow finer(const Level& level, int y);
+  /// Two rows of tiles of a level, which the next one is made from: they stay in the cache.
+  struct RowPair {
+    std::vector<float> count, mean_m, variance_m2;
+  };
+  static constexpr int kLevels = kCoarsestShift - kFinestShift + 1;
+  using Scratch = std::array<RowPair, kLevels>;
+
+  void lay_out(int width, int height, int threads);
+  void make_row(const Image<std::uint16_t>& raw, int shift, int y, const Options& options,
+                Scratch& scratch);
+  SummaryRow row_of(int shift, int y, const Options& options, RowPair& rows);
+  FinerRow finer(int shift, int y, const Scratch& scratch) const;
 
   int width_ = 0, height_ = 0;
   std::vector<std::uint16_t> below_;  // the row under the last one: no readings
-  Level levels_[kCoarsestShift - kFinestShift + 1];
+  std::array<Level, kLevels> levels_;
+  std::vector<Scratch> scratch_;  // of each thread
 };
 
 }  // namespace swiftlet
