@@ -81,7 +81,10 @@ SessionOptions session_options(const MapOptions& options, const SourceInfo& info
 Status fly(FrameSource& source, MappingSession& session, const MapOptions& options,
            const InterruptGuard& interrupt, FlightWatch* watch) {
   Progress progress(options.frames > 0 ? options.frames : source.info().frame_count);
-  source.stop_when([&] { return interrupt.is_interrupted(); });
+  source.stop_when([&] {
+    if (watch != nullptr) watch->note(source.tally());  // frames may be lost for long
+    return interrupt.is_interrupted();
+  });
   MappingSummary& summary = session.summary();
   Status outcome = Done{};
   for (std::size_t done = 0; options.frames == 0 || done < options.frames;) {
@@ -104,6 +107,7 @@ Status fly(FrameSource& source, MappingSession& session, const MapOptions& optio
   }
   summary.elapsed_s = progress.elapsed_s();
   summary.source_tally = source.tally();
+  if (watch != nullptr) watch->note(summary.source_tally);
   progress.finish();
   return outcome;
 }

@@ -66,6 +66,7 @@ void FlightWatch::block_left(const BlockIndex& index, const VoxelBlock& block,
 void FlightWatch::note(const FrameTally& tally) {
   std::ranges::transform(tally.lost, report_.lost.begin(),
                          [](std::size_t n) { return static_cast<std::uint32_t>(n); });
+  feed_.lost(report_.lost);
 }
 
 }  // namespace swiftlet::app

@@ -25,7 +25,7 @@ class FlightWatch final : public SessionObserver {
   void frame_done(const Frame& frame, const MapUpdate& update, const Mapper& mapper) override;
   void block_left(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) override;
 
-  /// What the source has lost so far; goes out with the next frame.
+  /// What the source has lost so far.
   void note(const FrameTally& tally);
   /// There will be no more frames.
   void finish() { feed_.finish(); }
