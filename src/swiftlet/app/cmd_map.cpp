@@ -143,9 +143,9 @@ Faults land(MappingSession& session, const MapperConfig& config, Status&& flight
 }
 
 /// Null if nobody wants to look on.
-Expected<std::unique_ptr<FlightWatch>> start_watch(const MapOptions& options) {
+Expected<std::unique_ptr<FlightWatch>> start_watch(const MapOptions& options, const MapMeta& meta) {
   if (!options.is_viewed) return nullptr;
-  auto watch = FlightWatch::start(options.station, options.source);
+  auto watch = FlightWatch::start(options.station, options.source, meta);
   if (watch) tell_address((*watch)->station());
   return watch;
 }
@@ -160,9 +160,9 @@ Faults map(const MapOptions& options) {
   const SourceInfo info = (*source)->info();
   adopt_baseline(info.baseline_m, *config);
 
-  auto watch = start_watch(options);
-  if (!watch) return fault_of(std::move(watch));
   SessionOptions how = session_options(options, info, config->mapper);
+  auto watch = start_watch(options, how.meta);
+  if (!watch) return fault_of(std::move(watch));
   how.observer = watch->get();
   auto session = MappingSession::create(config->mapper, how);
   if (!session) return fault_of(std::move(session));
