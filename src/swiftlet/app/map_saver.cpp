@@ -4,8 +4,8 @@
 #include "swiftlet/app/map_saver.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>

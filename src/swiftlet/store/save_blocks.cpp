@@ -10,22 +10,24 @@
 namespace swiftlet {
 namespace {
 
-Status write_blocks(MapFile& file, std::span<const std::pair<BlockIndex, VoxelBlock>> blocks,
-                    std::int64_t frames) {
-  auto seal = file.seal();
+Status fill(const std::filesystem::path& path,
+            std::span<const std::pair<BlockIndex, VoxelBlock>> blocks, std::int64_t frames) {
+  auto file = MapFile::open_to_write(path, 0);
+  if (!file) return forward_error(std::move(file));
+  auto seal = file->seal();
   if (!seal) return forward_error(std::move(seal));
-  if (auto begun = file.begin(); !begun) return begun;
+  if (auto begun = file->begin(); !begun) return begun;
   BlockCodec codec;
   for (const auto& [index, block] : blocks) {
     BlockRow row{index, frames, 0, codec.compress(block)};
     row.checksum = block_checksum(row.index, row.touched, row.data);
-    if (auto done = file.put(row); !done) return done;
+    if (auto done = file->put(row); !done) return done;
     ++seal->blocks;
     seal->block_digest += row.checksum;
   }
-  if (auto done = file.put_seal(*seal); !done) return done;
-  if (auto done = file.commit(); !done) return done;
-  return file.finish();
+  if (auto done = file->put_seal(*seal); !done) return done;
+  if (auto done = file->commit(); !done) return done;
+  return file->finish();
 }
 
 }  // namespace
@@ -35,14 +37,8 @@ Status save_blocks(const std::filesystem::path& path,
   SWIFTLET_REQUIRE(meta.contains("voxel_m") && meta.contains("frames"),
                    "a map tells its cell size and its frames");
   if (auto made = MapFile::create(path, false, meta); !made) return made;
-  auto file = MapFile::open_to_write(path, 0);
-  Status written =
-      file ? write_blocks(*file, blocks, number_from<std::int64_t>(meta.at("frames")).value_or(0))
-           : forward_error(std::move(file));
-  if (!written) {
-    if (file) file->close();
-    MapFile::remove(path);
-  }
+  Status written = fill(path, blocks, number_from<std::int64_t>(meta.at("frames")).value_or(0));
+  if (!written) MapFile::remove(path);
   return written;
 }
 
