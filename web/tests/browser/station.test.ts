@@ -184,7 +184,7 @@ it('hands out the map file, which holds the same cells', async () => {
   const got = join(folder, 'got.swl');
   await swl.saveAs(got);
   await page.locator('#downloads').waitFor({state: 'hidden'});
-  expect(cellsOf(got)).toEqual(cellsOf(map));
+  expect(pick(cellsOf(got))).toEqual(pick(cellsOf(map))); // blocks of unknown cells alone are left out
   const {occupied, free} = cellsOf(map);
   expect(compared(got, map)).toMatchObject({cells: occupied + free, same: occupied + free});
   await page.keyboard.press('d');
