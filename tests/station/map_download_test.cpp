@@ -149,13 +149,17 @@ TEST_F(MapDownload, is_made_once_for_all_who_ask_meanwhile_and_holds_up_nobody_e
   }
 }
 
-TEST_F(MapDownload, says_why_there_is_none) {
+TEST_F(MapDownload, says_that_nothing_has_been_mapped_yet) {
   start(plain_file);
   EXPECT_THAT(answer_to(get(port_, "", "/map.swl")), HasSubstr("nothing has been mapped yet"));
-  station_.reset();
+}
+
+TEST_F(MapDownload, says_that_this_station_has_none_to_give) {
   start({});
   EXPECT_THAT(answer_to(get(port_, "", "/map.swl")), StartsWith("HTTP/1.1 500"));
-  station_.reset();
+}
+
+TEST_F(MapDownload, says_why_it_could_not_be_made) {
   flight_.step();
   start([](const MapCopy&) -> Expected<std::vector<std::uint8_t>> {
     return fail(ErrorCode::kIo, "/tmp/map.swl", "the disk is full", "make room");
