@@ -4,7 +4,7 @@
 // node scripts/picture.mjs URL OUT.png [SECONDS [KEYS]]
 // A picture of the ground station as it is after some seconds, by a browser without a screen. The one in the docs:
 //     swiftlet map sim:apartment --set map.voxel_m=0.1 --view --stay
-//     node web/scripts/picture.mjs http://127.0.0.1:8080/ docs/pictures/ground_station.png 30
+//     node web/scripts/picture.mjs http://127.0.0.1:8080/ docs/pictures/ground_station.png 60
 
 import {openBrowser} from './browser.mjs';
 
