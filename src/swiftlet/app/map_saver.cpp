@@ -35,7 +35,7 @@ class PrivateFolder {
   std::string path_;
 };
 
-Expected<std::vector<std::uint8_t>> bytes_of(const std::filesystem::path& path) {
+Expected<std::vector<std::uint8_t>> read_bytes(const std::filesystem::path& path) {
   std::error_code none;
   const auto size = std::filesystem::file_size(path, none);
   std::vector<std::uint8_t> bytes(none ? 0 : size);
@@ -63,7 +63,7 @@ station::MapSaver map_saver(MapMeta meta) {
         const auto path = std::filesystem::path(folder.path()) / "map.swl";
         if (auto saved = save_blocks(path, map.blocks, told); !saved)
           return forward_error(std::move(saved));
-        return bytes_of(path);
+        return read_bytes(path);
       };
 }
 
