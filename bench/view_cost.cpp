@@ -103,7 +103,7 @@ void fly(const app::Workload& workload, const MapperConfig& config, Setting& set
   if (setting.has_station) {
     app::StationFlags flags;
     flags.listen = "127.0.0.1:0";
-    watch = std::move(*app::FlightWatch::start(flags, workload.name));
+    watch = std::move(*app::FlightWatch::start(flags, workload.name, {}));
     watch->map_begun(*mapper);
     const std::uint16_t port = watch->station().address().port;
     for (std::size_t i = 0; i < setting.clients; ++i) {

@@ -41,7 +41,9 @@ std::string_view line_of(std::string_view& text) {
 void ask(std::string_view text) {
   const AccessRules rules{"s3cret-token", {"https://map.example.org"}};
   const HttpQuestion question{
-      line_of(text), {line_of(text), line_of(text), line_of(text), line_of(text), line_of(text)}};
+      line_of(text),
+      {line_of(text), line_of(text), line_of(text), line_of(text), line_of(text)},
+      line_of(text)};
   (void)answer(rules, question, {});
   (void)answer({}, question, {});
   (void)parse_listen_address(text);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -93,6 +94,42 @@ TEST(RealTime, passes_on_the_fault_of_its_source_after_the_frames_before_it) {
   EXPECT_EQ(fault.error().where, "disk");
   const auto end = source->next();
   EXPECT_TRUE(end && !*end);
+}
+
+/// One frame; after that all are lost, until somebody has had enough.
+class Searching final : public FrameSource {
+ public:
+  Expected<std::optional<Frame>> next() override {
+    if (tally_.delivered++ == 0) {
+      return Frame{Stamp{}, DepthImage{}, PinholeIntrinsics::create(4, 4, 4, 4, 2, 2).value(), {}};
+    }
+    while (!is_unwanted_()) ++tally_.of(FrameLoss::kPoseStale);
+    return std::nullopt;
+  }
+  const SourceInfo& info() const override { return info_; }
+  const FrameTally& tally() const override { return tally_; }
+  void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
+
+ private:
+  SourceInfo info_{"searching:", "+z", std::nullopt, std::nullopt};
+  FrameTally tally_;
+  std::function<bool()> is_unwanted_;
+};
+
+TEST(RealTime, tells_what_is_lost_while_no_frame_comes_and_ends_when_it_is_asked_to) {
+  const auto source = play_in_real_time(std::make_unique<Searching>());
+  std::vector<std::size_t> lost;
+  source->stop_when([&] {
+    FrameTally tally = source->tally();
+    lost.push_back(tally.of(FrameLoss::kPoseStale));
+    return lost.size() > 2 && lost.back() > lost.front();
+  });
+  const auto frame = source->next();
+  ASSERT_TRUE(frame && *frame);
+  const auto end = source->next();
+  ASSERT_TRUE(end) << "no error: somebody wants to go home";
+  EXPECT_FALSE(*end);
+  EXPECT_EQ(source->tally().delivered, 1U);
 }
 
 TEST(RealTime, can_be_left_before_its_end) {

@@ -135,6 +135,18 @@ TEST_F(SimSourceTest, starts_in_the_middle_of_the_flight_without_moving_the_worl
   EXPECT_LT((frames.front().T_world_camera.translation() - truth.translation()).norm(), 1e-12);
 }
 
+TEST_F(SimSourceTest, tells_what_it_loses_while_no_frame_comes_and_ends_when_it_is_asked_to) {
+  const auto source = open("?fault=dead&fault_at=0.6");
+  std::size_t lost = 0;
+  source->stop_when([&] {
+    FrameTally tally = source->tally();
+    lost = tally.of(FrameLoss::kPoseStale);
+    return lost > 5;
+  });
+  EXPECT_FALSE(all_frames(*source).empty());
+  EXPECT_EQ(lost, 6U) << "it ends at once, and not at the end of the flight";
+}
+
 TEST_F(SimSourceTest, refuses_options_that_cannot_be_meant) {
   for (const std::string bad :
        {"?sed=3", "?seed=x", "?noise=maybe", "?drift=1", "?start=-1", "?frames", "?start=99"}) {

@@ -80,13 +80,14 @@ TEST(MapWatch, counts_frames_by_verdict_and_keeps_what_was_lost) {
   feed.begin_world(map.reader(), small_facts());
   MapWatch watch(feed);
   FrameReport report;
-  report.lost[1] = 5;
   for (const int verdict : {0, 1, 1, 77}) {  // a verdict without a name is not counted
     report.verdict = static_cast<std::uint8_t>(verdict);
     feed.report(report);
   }
   EXPECT_EQ(watch.look().frames.size(), 4U);
   EXPECT_EQ(watch.status().verdicts, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(watch.status().losses, (std::vector<std::uint32_t>{0, 0}));
+  feed.lost({0, 5});  // while no frame comes
   EXPECT_EQ(watch.status().losses, (std::vector<std::uint32_t>{0, 5}));
 }
 

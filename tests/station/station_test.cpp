@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "station/raw_socket.hpp"
+#include "station/requests.hpp"
 #include "station/station_world.hpp"
 #include "station/wire_reader.hpp"
 #include "swiftlet/station/client_message.hpp"
@@ -20,20 +21,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-std::string get(std::uint16_t port, const std::string& more = "", const std::string& target = "/") {
-  return "GET " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
-         "\r\nConnection: close\r\n" + more + "\r\n";
-}
-
-std::string upgrade(std::uint16_t port, const std::string& more = "",
-                    const std::string& target = "/ws",
-                    const std::string& protocol = "swiftlet.v1") {
-  return "GET " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
-         "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n" +
-         (protocol.empty() ? "" : "Sec-WebSocket-Protocol: " + protocol + "\r\n") + more + "\r\n";
-}
 
 class RunningStation : public ::testing::Test {
  protected:

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 //
-// node scripts/measure.mjs URL [MINUTES]
+// node scripts/measure.mjs URL
 // What the page costs, in a browser without a screen: time until its map is the mapper's, cell for cell, draw calls,
-// frames a second, and the memory of the tab, once a minute. The figures in the docs:
+// frames a second, and the memory of the tab; long_flight.mjs tells how that grows. The figures in the docs:
 //     swiftlet map 'sim:apartment?rate=1' --set map.voxel_m=0.044 --set depth.max_range_m=6 -o big.swl
 //     swiftlet view big.swl
 //     node web/scripts/measure.mjs http://127.0.0.1:8080/
 
-import {chromium} from 'playwright-core';
+import {heapOf, openBrowser} from './browser.mjs';
 
-const [url, minutes = '0'] = process.argv.slice(2);
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
-});
+const [url] = process.argv.slice(2);
+const browser = await openBrowser();
 const page = await browser.newPage({viewport: {width: 1280, height: 800}});
 const devtools = await page.context().newCDPSession(page);
 
@@ -25,9 +22,8 @@ const known = () =>
     return {cells: occupied, blocks, drawn: viewer.occupied.count, calls: viewer.renderer.info.render.calls};
   });
 async function memory_mb() {
-  await devtools.send('HeapProfiler.collectGarbage');
-  const {usedSize, embedderHeapUsedSize = 0, backingStorageSize = 0} = await devtools.send('Runtime.getHeapUsage');
-  return Math.round((usedSize + embedderHeapUsedSize + backingStorageSize) / 1e6);
+  const {objects, arrays} = await heapOf(devtools);
+  return Math.round(objects + arrays);
 }
 
 // Seen from within the page, as its own events come in.
@@ -53,8 +49,4 @@ const fps = await page.evaluate(
     }),
 );
 console.log(JSON.stringify({whole_ms: Math.round(whole_ms), ...(await known()), frames_per_s: fps, memory_mb: await memory_mb()}));
-for (let minute = 1; minute <= Number(minutes); ++minute) {
-  await page.waitForTimeout(60_000);
-  console.log(JSON.stringify({minute, ...(await known()), memory_mb: await memory_mb()}));
-}
 await browser.close();

@@ -4,15 +4,12 @@
 // node scripts/picture.mjs URL OUT.png [SECONDS [KEYS]]
 // A picture of the ground station as it is after some seconds, by a browser without a screen. The one in the docs:
 //     swiftlet map sim:apartment --set map.voxel_m=0.1 --view --stay
-//     node web/scripts/picture.mjs http://127.0.0.1:8080/ docs/pictures/ground_station.png 30
+//     node web/scripts/picture.mjs http://127.0.0.1:8080/ docs/pictures/ground_station.png 60
 
-import {chromium} from 'playwright-core';
+import {openBrowser} from './browser.mjs';
 
 const [url, out, seconds = '10', keys = ''] = process.argv.slice(2);
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
-});
+const browser = await openBrowser();
 const page = await browser.newPage({viewport: {width: 1280, height: 800}, colorScheme: 'dark'});
 await page.goto(url);
 await page.waitForTimeout(1000 * Number(seconds));

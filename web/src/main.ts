@@ -4,6 +4,7 @@
 import inter from '@fontsource-variable/inter/files/inter-latin-wght-normal.woff2?url';
 
 import {download, element} from './panel/dom';
+import {Downloads} from './panel/downloads';
 import {Inspector} from './panel/inspector';
 import {keysToActions, type Actions} from './panel/keys';
 import {drawProfile} from './panel/profile';
@@ -15,7 +16,6 @@ import {cssGradient, type Colouring} from './scene/colours';
 import type {CameraMode} from './scene/cameras';
 import {Viewer} from './scene/viewer';
 import {EventLog} from './state/events';
-import {occupiedAsPly} from './state/ply';
 import {World} from './state/world';
 import {Link} from './wire/link';
 
@@ -52,6 +52,7 @@ const slice = new Slice(world);
 const inspector = new Inspector(world);
 const timeline = new Timeline(world);
 const status = new StatusPanel(world, link, events);
+const downloads = new Downloads(world);
 
 // ---- what the user can do
 
@@ -100,7 +101,7 @@ const actions: Actions = {
     viewer.setTheme(sceneTheme());
   },
   screenshot: () => void viewer.picture().then((blob) => blob && download(blob, 'swiftlet.png')),
-  save: () => download(occupiedAsPly(world), 'swiftlet.ply'),
+  save: () => downloads.open(),
   help: () => element<HTMLDialogElement>('keys').showModal(),
 };
 keysToActions(actions);
@@ -145,6 +146,7 @@ function layOut(): void {
   viewer.resize();
 }
 new ResizeObserver(layOut).observe(document.body);
+isNarrow.addEventListener('change', layOut); // at once: the observer waits for the next frame
 window.addEventListener('load', layOut);
 
 let panelsAt_ms = 0;

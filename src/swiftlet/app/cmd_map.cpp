@@ -81,7 +81,10 @@ SessionOptions session_options(const MapOptions& options, const SourceInfo& info
 Status fly(FrameSource& source, MappingSession& session, const MapOptions& options,
            const InterruptGuard& interrupt, FlightWatch* watch) {
   Progress progress(options.frames > 0 ? options.frames : source.info().frame_count);
-  source.stop_when([&] { return interrupt.is_interrupted(); });
+  source.stop_when([&] {
+    if (watch != nullptr) watch->note(source.tally());  // frames may be lost for long
+    return interrupt.is_interrupted();
+  });
   MappingSummary& summary = session.summary();
   Status outcome = Done{};
   for (std::size_t done = 0; options.frames == 0 || done < options.frames;) {
@@ -104,6 +107,7 @@ Status fly(FrameSource& source, MappingSession& session, const MapOptions& optio
   }
   summary.elapsed_s = progress.elapsed_s();
   summary.source_tally = source.tally();
+  if (watch != nullptr) watch->note(summary.source_tally);
   progress.finish();
   return outcome;
 }
@@ -139,9 +143,9 @@ Faults land(MappingSession& session, const MapperConfig& config, Status&& flight
 }
 
 /// Null if nobody wants to look on.
-Expected<std::unique_ptr<FlightWatch>> start_watch(const MapOptions& options) {
+Expected<std::unique_ptr<FlightWatch>> start_watch(const MapOptions& options, const MapMeta& meta) {
   if (!options.is_viewed) return nullptr;
-  auto watch = FlightWatch::start(options.station, options.source);
+  auto watch = FlightWatch::start(options.station, options.source, meta);
   if (watch) tell_address((*watch)->station());
   return watch;
 }
@@ -156,9 +160,9 @@ Faults map(const MapOptions& options) {
   const SourceInfo info = (*source)->info();
   adopt_baseline(info.baseline_m, *config);
 
-  auto watch = start_watch(options);
-  if (!watch) return fault_of(std::move(watch));
   SessionOptions how = session_options(options, info, config->mapper);
+  auto watch = start_watch(options, how.meta);
+  if (!watch) return fault_of(std::move(watch));
   how.observer = watch->get();
   auto session = MappingSession::create(config->mapper, how);
   if (!session) return fault_of(std::move(session));

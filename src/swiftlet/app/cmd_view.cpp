@@ -7,6 +7,7 @@
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/map_reader.hpp"
+#include "swiftlet/app/map_saver.hpp"
 #include "swiftlet/app/station_flags.hpp"
 #include "swiftlet/base/number_text.hpp"
 
@@ -19,24 +20,22 @@ struct MapViewFlags {
 };
 
 /// The whole map, and what its file tells of it.
-Expected<station::SavedWorld> read_world(const std::string& path) {
-  auto file = load_map(path);
-  if (!file) return forward_error(std::move(file));
-  auto thresholds = thresholds_of(*file);
+Expected<station::SavedWorld> read_world(const SavedMap& file) {
+  auto thresholds = thresholds_of(file);
   if (!thresholds) return forward_error(std::move(thresholds));
   station::SavedWorld world;
-  world.facts.source = path;
+  world.facts.source = file.path().string();
   world.facts.version = SWIFTLET_VERSION;
-  world.facts.voxel_m = file->voxel_m();
+  world.facts.voxel_m = file.voxel_m();
   world.facts.thresholds = *thresholds;
-  const auto step = file->meta().find("logodds_per_step");
-  if (step != file->meta().end()) {
+  const auto step = file.meta().find("logodds_per_step");
+  if (step != file.meta().end()) {
     world.facts.logodds_per_step =
         number_from<double>(step->second).value_or(world.facts.logodds_per_step);
   }
   world.map = station::MapMirror(*thresholds);
   auto passed =
-      file->for_each_block([&](const BlockIndex& index, const VoxelBlock& block) -> Status {
+      file.for_each_block([&](const BlockIndex& index, const VoxelBlock& block) -> Status {
         world.map.put(index, block, 1);
         return Done{};
       });
@@ -47,8 +46,11 @@ Expected<station::SavedWorld> read_world(const std::string& path) {
 Faults view(const MapViewFlags& flags) {
   auto options = station_options(flags.station);
   if (!options) return fault_of(std::move(options));
-  auto world = read_world(flags.map);
+  auto file = load_map(flags.map);
+  if (!file) return fault_of(std::move(file));
+  auto world = read_world(*file);
   if (!world) return fault_of(std::move(world));
+  options->save_map = map_saver(file->meta());
   const InterruptGuard interrupt;
   auto station = station::Station::start(*options, std::move(*world));
   if (!station) return fault_of(std::move(station));

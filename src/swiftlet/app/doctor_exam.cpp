@@ -30,10 +30,10 @@ void note_readings(const Frame& frame, ReadingFacts& facts) {
 /// Runs a source for a while, in its own time.
 void examine_source(FrameSource& source, Nanoseconds duration, const std::function<bool()>& stop,
                     DoctorExam& exam) {
-  const HostTime start = HostTime::clock::now();
+  HostTime alive_at = HostTime::clock::now();
   const bool is_timed = duration > Nanoseconds(0);
   source.stop_when(
-      [&] { return stop() || (is_timed && HostTime::clock::now() - start > duration); });
+      [&] { return stop() || (is_timed && HostTime::clock::now() - alive_at > duration); });
   if (source.rig() != nullptr) exam.rig = *source.rig();
   exam.is_t265 = source.info().native_up_axis == "+y";
   exam.readings.resize(exam.rig.cameras.size());
@@ -44,6 +44,7 @@ void examine_source(FrameSource& source, Nanoseconds duration, const std::functi
     if (!frame) exam.fault = frame.error();
     if (!frame || !*frame) break;
     first = first.value_or((*frame)->stamp);
+    alive_at = HostTime::clock::now();
     note_readings(**frame, exam.readings[(*frame)->camera]);
     progress.update(++done);
     if (is_timed && (*frame)->stamp - *first >= duration) break;

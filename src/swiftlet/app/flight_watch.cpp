@@ -5,12 +5,15 @@
 
 #include <algorithm>
 
+#include "swiftlet/app/map_saver.hpp"
+
 namespace swiftlet::app {
 
 Expected<std::unique_ptr<FlightWatch>> FlightWatch::start(const StationFlags& flags,
-                                                          std::string source) {
+                                                          std::string source, MapMeta meta) {
   auto options = station_options(flags);
   if (!options) return forward_error(std::move(options));
+  options->save_map = map_saver(std::move(meta));
   std::unique_ptr<FlightWatch> watch(new FlightWatch(std::move(source)));
   auto station = station::Station::start(*options, watch->feed_);
   if (!station) return forward_error(std::move(station));
@@ -66,6 +69,7 @@ void FlightWatch::block_left(const BlockIndex& index, const VoxelBlock& block,
 void FlightWatch::note(const FrameTally& tally) {
   std::ranges::transform(tally.lost, report_.lost.begin(),
                          [](std::size_t n) { return static_cast<std::uint32_t>(n); });
+  feed_.lost(report_.lost);
 }
 
 }  // namespace swiftlet::app

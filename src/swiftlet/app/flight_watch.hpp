@@ -11,21 +11,24 @@
 #include "swiftlet/source/frame_source.hpp"
 #include "swiftlet/station/live_feed.hpp"
 #include "swiftlet/station/station.hpp"
+#include "swiftlet/store/map_file.hpp"
 
 namespace swiftlet::app {
 
 /// Shows a flight in the ground station while it goes on.
 class FlightWatch final : public SessionObserver {
  public:
-  /// Starts to serve. Errors: kUsage, kIo, kUnsupported (see Station::start()).
+  /// Starts to serve; `meta` as in the map file. Errors: kUsage, kIo, kUnsupported (see
+  /// Station::start()).
   [[nodiscard]] static Expected<std::unique_ptr<FlightWatch>> start(const StationFlags& flags,
-                                                                    std::string source);
+                                                                    std::string source,
+                                                                    MapMeta meta);
 
   void map_begun(const Mapper& mapper) override;
   void frame_done(const Frame& frame, const MapUpdate& update, const Mapper& mapper) override;
   void block_left(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) override;
 
-  /// What the source has lost so far; goes out with the next frame.
+  /// What the source has lost so far.
   void note(const FrameTally& tally);
   /// There will be no more frames.
   void finish() { feed_.finish(); }

@@ -79,7 +79,8 @@ class FrameSource {
   [[nodiscard]] virtual const RigFacts* facts() const { return nullptr; }
   [[nodiscard]] virtual const RigOptions* rig() const { return nullptr; }
 
-  /// A live source asks this while it waits for a frame, ten times a second; after a true it ends.
+  /// A source asks this while it has no frame to hand out: a live one ten times a second, others
+  /// while they skip what has no pose. tally() may be read then. After a true next() ends.
   virtual void stop_when(const std::function<bool()>& /*is_unwanted*/) {}
   /// What has happened to live instruments since the last call.
   [[nodiscard]] virtual std::vector<RigEvent> take_events() { return {}; }

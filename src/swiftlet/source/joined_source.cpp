@@ -29,6 +29,7 @@ JoinedSource::JoinedSource(SourceInfo info, std::vector<DepthStreamPtr> cameras,
 Expected<std::optional<Frame>> JoinedSource::next() {
   while (!has_ended_) {
     if (auto frame = rig_.pop()) return frame;
+    if (is_unwanted_ && is_unwanted_()) return std::nullopt;
     auto fits = check_clocks();
     if (fits && !is_played_) {
       auto has_more = advance();

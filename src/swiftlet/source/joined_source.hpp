@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -28,6 +29,7 @@ class JoinedSource final : public FrameSource {
   [[nodiscard]] const FrameTally& tally() const override { return rig_.tally(); }
   [[nodiscard]] const RigFacts* facts() const override { return &rig_.facts(); }
   [[nodiscard]] const RigOptions* rig() const override { return &rig_.options(); }
+  void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
 
  private:
   struct Camera {
@@ -44,6 +46,7 @@ class JoinedSource final : public FrameSource {
   std::vector<Camera> cameras_;
   PoseStreamPtr poses_;
   Rig rig_;
+  std::function<bool()> is_unwanted_;
   ClockDomain image_clock_ = ClockDomain::kUnspecified;
   std::optional<Error> fault_;  // of a stream
   bool is_played_ = false;      // the streams are at their end, or one of them has a fault

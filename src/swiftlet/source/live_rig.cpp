@@ -88,6 +88,14 @@ void LiveRig::close() {
   changed_.notify_all();
 }
 
+void LiveRig::take_stock() {
+  tally_ = rig_.tally();
+  tally_.of(FrameLoss::kOverload) += overloaded_;
+  tally_.delivered = delivered_;
+  tally_.events = event_counts_;
+  facts_ = rig_.facts();
+}
+
 Expected<std::optional<Frame>> LiveRig::next() {
   std::unique_lock lock(mutex_);
   bool is_unwanted = false;
@@ -99,6 +107,7 @@ Expected<std::optional<Frame>> LiveRig::next() {
                       [this] { return !queue_.empty() || is_closed_; });
     if (images_ != seen) alive_at = HostTime::clock::now();
     seen = images_;
+    take_stock();
     lock.unlock();  // it is somebody else's function
     is_unwanted = is_unwanted_ && is_unwanted_();
     lock.lock();
@@ -109,11 +118,7 @@ Expected<std::optional<Frame>> LiveRig::next() {
     queue_.pop_front();
     ++delivered_;
   }
-  tally_ = rig_.tally();
-  tally_.of(FrameLoss::kOverload) += overloaded_;
-  tally_.delivered = delivered_;
-  tally_.events = event_counts_;
-  facts_ = rig_.facts();
+  take_stock();
   if (frame || is_closed_ || is_unwanted) return frame;
   return fail(ErrorCode::kIo, info_.uri,
               fmt::format("no image has come for {:.1f} s", seconds(options_.patience)),

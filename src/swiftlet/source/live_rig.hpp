@@ -53,7 +53,9 @@ class LiveRig final : public FrameSource, public LiveSink {
   [[nodiscard]] std::vector<RigEvent> take_events() override;
 
  private:
-  void collect();  // REQUIRES: the lock
+  // REQUIRES: the lock.
+  void collect();
+  void take_stock();
 
   const SourceInfo info_;
   const Options options_;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -20,6 +21,11 @@ class RealTimeSource final : public FrameSource {
  public:
   RealTimeSource(FrameSourcePtr source, const QueuePolicy& policy)
       : source_(std::move(source)), info_(source_->info()), policy_(policy) {
+    source_->stop_when([this] {  // asked by the player
+      const std::lock_guard lock(mutex_);
+      source_tally_ = source_->tally();
+      return is_stopped_;
+    });
     player_ = std::thread([this] { play(); });
   }
   RealTimeSource(const RealTimeSource&) = delete;
@@ -36,25 +42,39 @@ class RealTimeSource final : public FrameSource {
   /// Waits for the next frame.
   Expected<std::optional<Frame>> next() override {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return !queue_.empty() || is_played_; });
-    tally_ = source_tally_;
-    tally_.of(FrameLoss::kOverload) += overloaded_;
+    bool is_unwanted = false;
+    while (!is_unwanted &&
+           !changed_.wait_for(lock, kGlance, [this] { return !queue_.empty() || is_played_; })) {
+      take_stock();
+      lock.unlock();  // it is somebody else's function
+      is_unwanted = is_unwanted_ && is_unwanted_();
+      lock.lock();
+    }
+    take_stock();
     if (!queue_.empty()) {
       Frame frame = std::move(queue_.front());
       queue_.pop_front();
       tally_.delivered = ++delivered_;
       return frame;
     }
-    tally_.delivered = delivered_;
     if (fault_) return tl::make_unexpected(*std::exchange(fault_, std::nullopt));
     return std::nullopt;
   }
 
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return tally_; }
+  void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
 
  private:
   using Clock = HostTime::clock;
+  static constexpr Nanoseconds kGlance = std::chrono::milliseconds(100);  // at whether to go on
+
+  /// REQUIRES: the lock.
+  void take_stock() {
+    tally_ = source_tally_;
+    tally_.of(FrameLoss::kOverload) += overloaded_;
+    tally_.delivered = delivered_;
+  }
 
   void play() {
     std::optional<Stamp> first;
@@ -101,6 +121,7 @@ class RealTimeSource final : public FrameSource {
   const QueuePolicy policy_;
   FrameTally tally_;  // the reader's
   std::size_t delivered_ = 0;
+  std::function<bool()> is_unwanted_;
 
   std::mutex mutex_;  // of all that follows
   std::condition_variable changed_;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -49,7 +50,7 @@ class SimSource final : public FrameSource {
   Expected<std::optional<Frame>> next() override {
     while (true) {
       if (auto frame = rig_.pop()) return frame;
-      if (is_over_) return std::nullopt;
+      if (is_over_ || (is_unwanted_ && is_unwanted_())) return std::nullopt;
       advance();
     }
   }
@@ -57,6 +58,7 @@ class SimSource final : public FrameSource {
   const FrameTally& tally() const override { return rig_.tally(); }
   const RigFacts* facts() const override { return &rig_.facts(); }
   const RigOptions* rig() const override { return &rig_.options(); }
+  void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
 
  private:
   /// The n-th image to arrive.
@@ -124,6 +126,7 @@ class SimSource final : public FrameSource {
   SimWorld sim_;
   sim::FaultyTracker tracker_;
   Rig rig_;
+  std::function<bool()> is_unwanted_;
   std::size_t images_ = 0;
   Stamp newest_image_, newest_pose_;
   bool is_over_ = false;

@@ -26,6 +26,21 @@ HttpAnswer blank(int status, std::string_view host) {
           {}};
 }
 
+/// The map file costs the station work, which no other page may cause.
+HttpAnswer map_answer(const HttpQuestion& question) {
+  if (question.site == "cross-site" || question.site == "same-site") return {403, {}, {}};
+  HttpAnswer found = blank(question.method == "GET" ? 200 : 405, question.credentials.host);
+  if (found.status == 405) {
+    found.headers.emplace_back("Allow", "GET");
+    return found;
+  }
+  found.is_map = true;
+  found.headers.emplace_back("Content-Type", "application/vnd.sqlite3");
+  found.headers.emplace_back("Content-Disposition", "attachment; filename=\"map.swl\"");
+  found.headers.emplace_back("Cache-Control", "no-store");
+  return found;
+}
+
 /// A name out of its place would let a header say more than it should.
 bool is_printable_host(std::string_view host) {
   return std::ranges::all_of(host, [](char c) {
@@ -55,6 +70,7 @@ HttpAnswer answer(const AccessRules& rules, const HttpQuestion& question,
     return refused;
   }
   std::string_view path = who.target.substr(0, who.target.find('?'));
+  if (path == kMapPath) return map_answer(question);
   if (path == "/") path = "/index.html";
   const auto file = std::ranges::find(files, path, &PageFile::path);
   if (file == files.end()) return blank(404, who.host);

@@ -26,6 +26,7 @@ struct PageFile {
 struct HttpQuestion {
   std::string_view method;
   Credentials credentials;
+  std::string_view site{};  ///< header Sec-Fetch-Site: what page is behind it, if a browser asks
 };
 
 /// What it gets. No body where it is refused.
@@ -33,7 +34,11 @@ struct HttpAnswer {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> headers;
   std::span<const std::uint8_t> body;
+  bool is_map = false;  ///< the body is to be the map file, which has to be made first
 };
+
+/// Where the map file is to be had.
+inline constexpr std::string_view kMapPath = "/map.swl";
 
 /// The answer to a plain request (not one for a WebSocket). Every answer forbids the page to load
 /// or reach anything but this server.

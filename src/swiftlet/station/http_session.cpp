@@ -13,6 +13,7 @@ namespace http = beast::http;
 
 constexpr std::uint32_t kMaxHeader_bytes = 8 * 1024;
 constexpr std::chrono::seconds kPatience{10};
+constexpr std::chrono::seconds kStall{30};
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -42,8 +43,14 @@ void HttpSession::respond() {
     upgrade();
     return;
   }
-  const HttpQuestion question{view(request.method_string()), credentials_of(request)};
-  send(answer(host_.rules, question, page_files()));
+  const HttpQuestion question{view(request.method_string()), credentials_of(request),
+                              view(request["Sec-Fetch-Site"])};
+  HttpAnswer found = answer(host_.rules, question, page_files());
+  if (!found.is_map) return send(found);
+  stream_.expires_never();  // it is we who take our time
+  host_.fetch_map([self = shared_from_this(), found](const Expected<SharedBytes>& file) {
+    self->send_map(found, file);
+  });
 }
 
 void HttpSession::upgrade() {
@@ -70,28 +77,60 @@ void HttpSession::upgrade() {
                   });
 }
 
-void HttpSession::send(const HttpAnswer& answer) {
-  using Response = http::response<http::span_body<const std::uint8_t>>;
-  const HttpRequest& request = parser_->get();
-  auto response =
-      std::make_shared<Response>(static_cast<http::status>(answer.status), request.version());
-  for (const auto& [name, value] : answer.headers) response->set(name, value);
-  if (request.method() != http::verb::head) {
-    response->body() = {answer.body.data(), answer.body.size()};
+/// An answer on its way, and what its bytes lie in.
+struct HttpSession::Sending {
+  http::response<http::span_body<const std::uint8_t>> response;
+  http::response_serializer<http::span_body<const std::uint8_t>> serializer{response};
+  SharedBytes body;  // null: linked into the program
+  bool goes_on = false;
+};
+
+void HttpSession::send_map(HttpAnswer answer, const Expected<SharedBytes>& file) {
+  if (file) {
+    answer.body = **file;
+    return send(answer, *file);
   }
-  response->content_length(answer.body.size());
-  const bool goes_on = answer.status == 200 && request.keep_alive();
-  response->keep_alive(goes_on);
-  sending_ = response;
-  http::async_write(stream_, *response,
-                    [self = shared_from_this(), goes_on](beast::error_code error, std::size_t) {
-                      self->sending_.reset();
-                      if (error) return;
-                      if (goes_on) return self->read();
-                      beast::error_code ignored;
-                      self->stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send,
-                                                      ignored);
-                    });
+  const std::string text = file.error().text() + "\n";
+  answer.status = file.error().code == ErrorCode::kNotFound ? 404 : 500;
+  std::erase_if(answer.headers, [](const auto& header) {
+    return header.first == "Content-Disposition" || header.first == "Content-Type";
+  });
+  answer.headers.emplace_back("Content-Type", "text/plain; charset=utf-8");
+  const auto bytes = std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end());
+  answer.body = *bytes;
+  send(answer, bytes);
+}
+
+void HttpSession::send(const HttpAnswer& answer, SharedBytes body) {
+  const HttpRequest& request = parser_->get();
+  auto sending = std::make_shared<Sending>();
+  auto& response = sending->response;
+  response.result(static_cast<http::status>(answer.status));
+  response.version(request.version());
+  for (const auto& [name, value] : answer.headers) response.set(name, value);
+  if (request.method() != http::verb::head) {
+    response.body() = {answer.body.data(), answer.body.size()};
+  }
+  response.content_length(answer.body.size());
+  sending->body = std::move(body);
+  sending->goes_on = answer.status == 200 && request.keep_alive();
+  response.keep_alive(sending->goes_on);
+  write_on(sending);
+}
+
+/// Piece by piece: over a slow link the whole takes long, and only a client that takes nothing at
+/// all is given up.
+void HttpSession::write_on(const std::shared_ptr<Sending>& sending) {
+  stream_.expires_after(kStall);
+  http::async_write_some(
+      stream_, sending->serializer,
+      [self = shared_from_this(), sending](beast::error_code error, std::size_t) {
+        if (error) return;
+        if (!sending->serializer.is_done()) return self->write_on(sending);
+        if (sending->goes_on) return self->read();
+        beast::error_code ignored;
+        self->stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+      });
 }
 
 }  // namespace swiftlet::station

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "swiftlet/station/http_answer.hpp"
+#include "swiftlet/station/map_desk_private.hpp"
 #include "swiftlet/station/socket_session_private.hpp"
 
 namespace swiftlet::station {
@@ -28,6 +29,7 @@ struct HttpHost {
   std::function<std::optional<Chosen>(std::string_view offered)> choose;
   std::function<bool()> has_room;  ///< for one more client
   std::function<void(std::shared_ptr<SocketSession>)> opened;
+  std::function<void(MapDesk::Ready)> fetch_map;
 };
 
 /// One connection: answers plain requests, and turns into a SocketSession when asked to. Does
@@ -41,16 +43,19 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void read();
 
  private:
+  struct Sending;
+
   void respond();
   void upgrade();
-  void send(const HttpAnswer& answer);
+  void send(const HttpAnswer& answer, SharedBytes body = nullptr);
+  void send_map(HttpAnswer answer, const Expected<SharedBytes>& file);
+  void write_on(const std::shared_ptr<Sending>& sending);
 
   boost::beast::tcp_stream stream_;
   boost::beast::flat_buffer inbox_;
   const HttpHost& host_;
   std::shared_ptr<void> alive_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
-  std::shared_ptr<void> sending_;
 };
 
 }  // namespace swiftlet::station

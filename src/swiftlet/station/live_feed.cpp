@@ -24,6 +24,20 @@ void LiveFeed::report(FrameReport report) {
   (void)reports_.push(report);  // the ring counts what it has no room for
 }
 
+void LiveFeed::lost(const std::array<std::uint32_t, kMaxLosses>& counts) {
+  for (std::size_t i = 0; i < kMaxLosses; ++i) {
+    losses_[i].store(counts[i], std::memory_order_relaxed);
+  }
+}
+
+std::array<std::uint32_t, kMaxLosses> LiveFeed::losses() const {
+  std::array<std::uint32_t, kMaxLosses> counts{};
+  for (std::size_t i = 0; i < kMaxLosses; ++i) {
+    counts[i] = losses_[i].load(std::memory_order_relaxed);
+  }
+  return counts;
+}
+
 void LiveFeed::evicted(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) {
   const std::lock_guard lock(mutex_);
   if (filling_.size() < kEvicted) {

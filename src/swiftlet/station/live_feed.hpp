@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <mutex>
@@ -20,8 +21,8 @@ namespace swiftlet::station {
 /// What the mapping thread tells the station of: where the map is, each frame, and blocks that
 /// leave the window.
 ///
-/// Thread safety: begin_world(), report(), evicted() and finish() from the mapping thread, the
-/// others from the station's. Real time: report() neither locks nor allocates; evicted(), which is
+/// Thread safety: begin_world() to finish() from the mapping thread, the others from the station's.
+/// Real time: report() and lost() neither lock nor allocate; evicted(), which is
 /// called in frames that move the window, copies 512 bytes under a lock that the station holds only
 /// to exchange two buffers. begin_world() allocates; a flight calls it once, before its first
 /// frame, and again when the map is begun anew.
@@ -39,6 +40,8 @@ class LiveFeed {
   /// Keeps the image if somebody wants to see it and the station is not just taking one. Copies
   /// it then, and allocates where it is larger than all before.
   void depth(const DepthImage& image);
+  /// Frames that the source has lost so far; also while none comes out of it.
+  void lost(const std::array<std::uint32_t, kMaxLosses>& counts);
   void finish() { is_over_.store(true); }
 
   // The station's thread.
@@ -65,6 +68,7 @@ class LiveFeed {
   void ask_for_depth() { wants_depth_.store(true); }
   /// The image that was asked for; false if there is none yet.
   [[nodiscard]] bool take_depth(DepthImage& out);
+  [[nodiscard]] std::array<std::uint32_t, kMaxLosses> losses() const;
   [[nodiscard]] std::uint64_t reports_missed() const { return reports_.missed(); }
   [[nodiscard]] std::uint64_t evicted_missed() const { return evicted_missed_.load(); }
   [[nodiscard]] bool is_over() const { return is_over_.load(); }
@@ -73,6 +77,7 @@ class LiveFeed {
   ReportRing reports_{kReports};
   std::atomic<std::uint32_t> world_{0};
   std::atomic<bool> is_over_{false};
+  std::array<std::atomic<std::uint32_t>, kMaxLosses> losses_{};
   std::atomic<std::uint64_t> evicted_missed_{0};
 
   std::mutex mutex_;

@@ -83,11 +83,12 @@ StatusReport MapWatch::status() const {
   status.blocks = map_.digest().blocks;
   status.verdicts = verdicts_;
   status.losses.resize(std::min(facts_.losses.size(), kMaxLosses));
-  if (last_frame_) {
-    status.memory_bytes = last_frame_->memory_bytes;
-    std::copy_n(last_frame_->lost.begin(), status.losses.size(), status.losses.begin());
+  if (last_frame_) status.memory_bytes = last_frame_->memory_bytes;
+  if (feed_ != nullptr) {
+    std::ranges::copy_n(feed_->losses().begin(), static_cast<std::ptrdiff_t>(status.losses.size()),
+                        status.losses.begin());
+    status.reports_missed = static_cast<std::uint32_t>(feed_->reports_missed());
   }
-  if (feed_ != nullptr) status.reports_missed = static_cast<std::uint32_t>(feed_->reports_missed());
   return status;
 }
 

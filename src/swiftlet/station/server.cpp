@@ -47,7 +47,8 @@ class Server final : public Station {
         host_{options_.access,
               [this](std::string_view offered) { return choose_viewer(offered, watch_); },
               [this] { return clients_.size() < options_.max_clients; },
-              [this](auto session) { clients_.push_back(std::move(session)); }} {}
+              [this](auto session) { clients_.push_back(std::move(session)); },
+              [this](auto ready) { desk_.ask(Clock::now(), std::move(ready)); }} {}
 
   ~Server() override {
     io_.stop();
@@ -80,6 +81,8 @@ class Server final : public Station {
   const ListenAddress& address() const override { return options_.listen; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void accept() {
     acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
       const bool has_room =
@@ -103,7 +106,8 @@ class Server final : public Station {
   void look() {
     std::erase_if(clients_, [](const auto& client) { return !client->is_open(); });
     const MapWatch::Look look = watch_.look();
-    const auto now = std::chrono::steady_clock::now();
+    const auto now = Clock::now();
+    desk_.tidy(now);
     const auto shows_depth = [](const auto& client) { return client->viewer().wants_depth(); };
     if (std::ranges::any_of(clients_, shows_depth)) watch_.ask_for_depth();
     for (const auto& client : clients_) {
@@ -122,6 +126,7 @@ class Server final : public Station {
   asio::steady_timer timer_{io_};
   std::shared_ptr<void> connection_ = std::make_shared<int>(0);  // its users are counted
   std::vector<std::shared_ptr<SocketSession>> clients_;
+  MapDesk desk_{io_, watch_, options_.save_map};
   std::thread thread_;
 };
 

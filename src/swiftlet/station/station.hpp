@@ -13,6 +13,7 @@
 #include "swiftlet/station/access.hpp"
 #include "swiftlet/station/listen_address.hpp"
 #include "swiftlet/station/live_feed.hpp"
+#include "swiftlet/station/map_copy.hpp"
 #include "swiftlet/station/map_mirror.hpp"
 
 namespace swiftlet::station {
@@ -24,6 +25,7 @@ struct StationOptions {
   std::size_t max_clients = 20;        ///< sockets with data; more are refused
   std::size_t max_connections = 64;    ///< of all kinds
   std::chrono::milliseconds tick{50};  ///< how often the map is looked at
+  MapSaver save_map;                   ///< for who asks for the map as a file; empty: nobody can
 };
 
 /// A saved map, to be shown as it is.

@@ -23,7 +23,7 @@ const kKeys: [string, Action, string][] = [
   ['u', 'unknown', 'undecided cells'],
   ['b', 'boxes', 'window and trigger box'],
   ['p', 'screenshot', 'screenshot'],
-  ['d', 'save', 'download the occupied cells'],
+  ['d', 'save', 'download the map'],
   ['t', 'theme', 'light or dark'],
   ['?', 'help', 'these keys'],
 ];
@@ -43,7 +43,9 @@ export function keysToActions(actions: Actions): void {
   );
   window.addEventListener('keydown', (event) => {
     const target = event.target as HTMLElement;
-    if (event.ctrlKey || event.metaKey || event.altKey || target.closest('select, input, dialog')) return;
+    // A dialog that was just closed may hold the focus for a moment.
+    const isElsewhere = target.closest('select, input') || document.querySelector('dialog[open]');
+    if (event.ctrlKey || event.metaKey || event.altKey || isElsewhere) return;
     const found = kKeys.find(([key]) => key === event.key);
     if (!found) return;
     event.preventDefault();

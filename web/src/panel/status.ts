@@ -7,6 +7,7 @@ import type {Link} from '../wire/link';
 import {element, grouped} from './dom';
 
 const kQuiet_ms = 1500;
+const kSilent_ms = 6000;
 
 /// The bar, the banner and what stands in the middle of an empty page.
 export class StatusPanel {
@@ -37,7 +38,7 @@ export class StatusPanel {
     pill.dataset.state = state;
     pill.querySelector('span')!.textContent = kStateNames[state];
     this.#banner(state, now_ms);
-    this.#overlay(state);
+    this.#overlay(state, now_ms);
     this.#reasons();
   }
 
@@ -46,12 +47,17 @@ export class StatusPanel {
     if (link.state === 'lost') return 'lost';
     if (link.state === 'connecting' || !world.hello) return 'connecting';
     if (link.pace === 'hold') return 'paused';
+    if (now_ms - link.heardAt_ms > kSilent_ms) return 'silent';
     const flight = world.status?.state ?? 'waiting';
     if (flight === 'saved') return 'saved';
     if (flight === 'over') return 'over';
     if (flight === 'waiting') return 'waiting';
-    if (now_ms - this.events.poseLostAt_ms < kQuiet_ms) return 'pose';
+    if (this.#isPoseLost(now_ms)) return 'pose';
     return now_ms - this.#lastFrameAt_ms > kQuiet_ms ? 'quiet' : 'flying';
+  }
+
+  #isPoseLost(now_ms: number): boolean {
+    return now_ms - this.events.poseLostAt_ms < kQuiet_ms;
   }
 
   #figures(now_ms: number): void {
@@ -91,6 +97,7 @@ export class StatusPanel {
     const text: Partial<Record<PageState, string>> = {
       lost: `Link lost. The map is as it was; ${seconds > 0.1 ? `trying again in ${Math.ceil(seconds)} s` : 'trying again'}`,
       pose: 'Pose lost: images come without a pose that can be trusted, and are not mapped',
+      silent: `Nothing heard for ${((now_ms - this.link.heardAt_ms) / 1000).toFixed(0)} s: the link is weak, or the program stands still`,
       quiet: `No frames for ${((now_ms - this.#lastFrameAt_ms) / 1000).toFixed(0)} s`,
       paused: 'Paused. The server keeps what changes; go on with space, step with .',
     };
@@ -100,13 +107,15 @@ export class StatusPanel {
     if (shown && banner.textContent !== shown) banner.textContent = shown;
   }
 
-  #overlay(state: PageState): void {
+  #overlay(state: PageState, now_ms: number): void {
     const overlay = element('overlay');
     const isEmpty = this.world.blocks.size === 0;
     const texts: Partial<Record<PageState, [string, string]>> = {
       connecting: ['Connecting', 'Looking for the mapper on this address.'],
       lost: ['No mapper here', 'Start one with  swiftlet map SOURCE --view  and leave this page open: it connects by itself.'],
-      waiting: ['Waiting for the first frame', 'The mapper is ready. Nothing has been mapped yet.'],
+      waiting: this.#isPoseLost(now_ms)
+        ? ['Waiting for the first pose', 'Images come, but none with a pose that can be trusted. Nothing has been mapped yet.']
+        : ['Waiting for the first frame', 'The mapper is ready. Nothing has been mapped yet.'],
       saved: ['An empty map', 'This map file holds no cells.'],
       over: ['The flight is over', 'Nothing was mapped.'],
     };
@@ -131,7 +140,7 @@ export class StatusPanel {
     }
     const text = parts.length > 0 ? `refused or lost: ${parts.join(' · ')}` : hello?.live ? 'none refused' : '';
     element('reasons').textContent = text;
-    const list = this.events.list.slice(0, 6);
+    const list = this.events.list.slice(0, 5);
     const shown = list.map((e) => `${e.text}×${e.count}`).join('|');
     if (shown === this.#eventsShown) return;
     this.#eventsShown = shown;
@@ -148,11 +157,12 @@ export class StatusPanel {
   }
 }
 
-type PageState = 'connecting' | 'lost' | 'waiting' | 'flying' | 'quiet' | 'pose' | 'paused' | 'over' | 'saved';
+type PageState = 'connecting' | 'lost' | 'silent' | 'waiting' | 'flying' | 'quiet' | 'pose' | 'paused' | 'over' | 'saved';
 
 const kStateNames: Record<PageState, string> = {
   connecting: 'Connecting',
   lost: 'Link lost',
+  silent: 'Silence',
   waiting: 'No data yet',
   flying: 'Flying',
   quiet: 'No frames',

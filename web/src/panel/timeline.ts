@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
+import {words} from '../state/events';
+import {sourceRates} from '../state/rates';
 import type {World} from '../state/world';
+import type {FrameRecord} from '../wire/messages';
 import {css, element, sharp} from './dom';
 
 const kStageColours = ['--stage-1', '--stage-2', '--stage-3', '--stage-4'];
+const kBar_px = 3;
+const kLeft_px = 40;
+const kRight_px = 46;
+const kBelow_px = 10; // for the marks
 
-/// Time that each of the last frames took, stage by stage; frames that were refused or lost as marks.
+/// Time that each of the last frames took, stage by stage; how many came a second, as a line; frames that were refused
+/// or lost as marks below.
 export class Timeline {
   #canvas = element<HTMLCanvasElement>('timeline');
   #pointer: number | null = null;
@@ -20,64 +28,78 @@ export class Timeline {
     const target = sharp(this.#canvas);
     if (!target) return;
     const {g, width, height} = target;
-    const bar = 3;
-    const left = 30;
-    const frames = this.world.frames.slice(-Math.floor((width - left) / bar));
-    const times = frames.map((f) => f.stages_ms.reduce((a, b) => a + b, 0));
-    // One slow frame must not flatten all others: it is cut off at the top.
-    const usual = [...times].sort((a, b) => a - b)[Math.floor(times.length * 0.97)] ?? 0;
-    const most = niceCeiling(Math.max(5, 1.25 * usual));
-    const base = height - 10;
-    const y = (ms: number): number => base - (ms / most) * (base - 8);
+    const right = width - kRight_px;
+    const frames = this.world.frames.slice(-Math.floor((right - kLeft_px) / kBar_px));
+    const base = height - kBelow_px;
+    const y = (share: number): number => base - share * (base - 8);
     g.font = `10px ${css('--mono')}`;
-    g.textAlign = 'right';
     g.textBaseline = 'middle';
-    for (const ms of [0, most / 2, most]) {
-      g.strokeStyle = css('--line');
-      g.beginPath();
-      g.moveTo(left, Math.round(y(ms)) + 0.5);
-      g.lineTo(width, Math.round(y(ms)) + 0.5);
-      g.stroke();
-      g.fillStyle = css('--muted-text');
-      g.fillText(`${ms}`, left - 6, y(ms));
-    }
+    // One slow frame must not flatten all others: it is cut off at the top.
+    const times = frames.map(totalOf).sort((a, b) => a - b);
+    const most_ms = niceCeiling(Math.max(5, 1.25 * (times[Math.floor(times.length * 0.97)] ?? 0)));
+    const rates = sourceRates(frames);
+    const most_fps = niceCeiling(Math.max(5, 1.1 * Math.max(0, ...rates)));
+    this.#axes(g, width, y, most_ms, most_fps);
+    const xOf = (i: number): number => right - (frames.length - i) * kBar_px;
     const colours = kStageColours.map(css);
-    const [bad, late, lost] = [css('--bad'), css('--warn'), css('--lost')];
+    const marks = {refused: css('--bad'), late: css('--warn'), lost: css('--lost'), shift: css('--window')};
     frames.forEach((frame, i) => {
-      const x = width - (frames.length - i) * bar;
       let sum = 0;
       frame.stages_ms.forEach((ms, k) => {
-        g.fillStyle = frame.verdict !== 0 ? bad : colours[k]!;
-        const top = Math.max(6, y(sum + ms));
-        g.fillRect(x, top, bar - 1, Math.max(0, y(sum) - top));
+        g.fillStyle = frame.verdict !== 0 ? marks.refused : colours[k]!;
+        const top = Math.max(6, y((sum + ms) / most_ms));
+        g.fillRect(xOf(i), top, kBar_px - 1, Math.max(0, y(sum / most_ms) - top));
         sum += ms;
       });
-      const mark = (colour: string): void => {
-        g.fillStyle = colour;
-        g.fillRect(x, base + 3, bar - 1, 6);
-      };
       const before = frames[i - 1];
-      if (before && frame.lost > before.lost) mark(lost);
-      if (frame.isLate) mark(late);
-      if (frame.verdict !== 0) mark(bad);
+      const kind = frame.verdict !== 0 ? 'refused' : frame.isLate ? 'late' : before && frame.lost > before.lost ? 'lost' : null;
+      if (kind) {
+        g.fillStyle = marks[kind];
+        g.fillRect(xOf(i), base + 3, kBar_px - 1, 6);
+      }
       if (frame.hasShifted) {
-        g.fillStyle = css('--window');
-        g.fillRect(x, 0, bar - 1, 4);
+        g.fillStyle = marks.shift;
+        g.fillRect(xOf(i), 0, kBar_px - 1, 4);
       }
     });
-    this.#explain(g, frames.length, width, bar);
+    g.strokeStyle = css('--text');
+    g.globalAlpha = 0.8;
+    g.beginPath();
+    rates.forEach((fps, i) => g.lineTo(xOf(i) + 1, y(Math.min(1, fps / most_fps))));
+    g.stroke();
+    g.globalAlpha = 1;
+    this.#explain(g, frames, rates, right);
+  }
+
+  #axes(g: CanvasRenderingContext2D, width: number, y: (share: number) => number, ms: number, fps: number): void {
+    for (const share of [0, 0.5, 1]) {
+      g.strokeStyle = css('--line');
+      g.beginPath();
+      g.moveTo(kLeft_px, Math.round(y(share)) + 0.5);
+      g.lineTo(width - kRight_px, Math.round(y(share)) + 0.5);
+      g.stroke();
+      g.fillStyle = css('--muted-text');
+      g.textAlign = 'right';
+      g.fillText(share === 1 ? `${ms} ms` : `${share * ms}`, kLeft_px - 5, y(share));
+      g.textAlign = 'left';
+      g.fillText(share === 1 ? `${fps} fps` : `${share * fps}`, width - kRight_px + 5, y(share));
+    }
   }
 
   /// What the frame under the pointer is.
-  #explain(g: CanvasRenderingContext2D, count: number, width: number, bar: number): void {
+  #explain(g: CanvasRenderingContext2D, frames: FrameRecord[], rates: number[], right: number): void {
     if (this.#pointer === null || !this.world.hello) return;
-    const i = this.world.frames.length - Math.ceil((width - this.#pointer) / bar);
-    const frame = this.world.frames[i];
-    if (!frame || i < this.world.frames.length - count) return;
-    const total = frame.stages_ms.reduce((a, b) => a + b, 0);
-    const text = `#${frame.number}  ${total.toFixed(1)} ms  ${this.world.hello.verdicts[frame.verdict] ?? ''}`;
+    const i = frames.length - Math.ceil((right - this.#pointer) / kBar_px);
+    const frame = frames[i];
+    if (!frame) return;
+    const parts = [`#${frame.number}`, `${totalOf(frame).toFixed(1)} ms`, words(this.world.hello.verdicts[frame.verdict])];
+    if (rates[i]! > 0) parts.splice(2, 0, `${rates[i]!.toFixed(0)} fps`);
+    if (frame.isLate) parts.push(`${frame.blocksLeft} blocks left`);
+    const lost = frame.lost - (frames[i - 1]?.lost ?? frame.lost);
+    if (lost > 0) parts.push(`${lost} lost before it`);
+    const text = parts.join('  ');
     const w = g.measureText(text).width + 14;
-    const x = Math.min(width - w, Math.max(0, this.#pointer - w / 2));
+    const x = Math.min(right - w, Math.max(0, this.#pointer - w / 2));
     g.fillStyle = css('--panel-solid');
     g.strokeStyle = css('--line');
     g.beginPath();
@@ -88,6 +110,10 @@ export class Timeline {
     g.textAlign = 'left';
     g.fillText(text, x + 7, 16.5);
   }
+}
+
+function totalOf(frame: FrameRecord): number {
+  return frame.stages_ms.reduce((a, b) => a + b, 0);
 }
 
 function niceCeiling(value: number): number {

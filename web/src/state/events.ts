@@ -16,12 +16,13 @@ export interface FlightEvent {
 export const poseLosses = ['no_pose', 'pose_gap', 'pose_refused', 'pose_jump', 'pose_stale'];
 
 const kKept = 60;
+const kArrivalsKept = 200;
 
 /// What happened, newest first. The same thing again within a moment counts up instead of filling the list.
 export class EventLog {
   list: FlightEvent[] = [];
   poseLostAt_ms = -Infinity;
-  #losses: number[] = [];
+  #losses: number[] | null = null; // null: not told yet
 
   add(kind: EventKind, text: string, count = 1): void {
     const newest = this.list[0];
@@ -42,9 +43,11 @@ export class EventLog {
     }
   }
 
+  /// What was lost before the first status that came is old news.
   status(status: StatusMessage, hello: Hello, now_ms: number): void {
+    const before = this.#losses ?? status.losses;
     status.losses.forEach((count, i) => {
-      const more = count - (this.#losses[i] ?? 0);
+      const more = count - (before[i] ?? 0);
       const name = hello.losses[i] ?? '';
       if (more <= 0) return;
       this.add('lost', `lost: ${words(name)}`, more);
@@ -53,7 +56,7 @@ export class EventLog {
     this.#losses = status.losses;
   }
   forget(): void {
-    this.#losses = [];
+    this.#losses = null;
     this.poseLostAt_ms = -Infinity;
   }
 }
@@ -68,15 +71,23 @@ export class FrameRate {
 
   add(count: number, now_ms: number): void {
     this.#arrivals.push([now_ms, count]);
+    // In a tab that is out of sight nobody asks for the rate.
+    if (this.#arrivals.length > kArrivalsKept) this.#forget(now_ms);
+  }
+  get kept(): number {
+    return this.#arrivals.length;
   }
   /// null while there are none.
   at(now_ms: number): number | null {
-    this.#arrivals = this.#arrivals.filter(([at]) => now_ms - at < 2000);
+    this.#forget(now_ms);
     const first = this.#arrivals[0];
     if (!first || this.#arrivals.length < 2) return null;
     const count = this.#arrivals.slice(1).reduce((sum, [, n]) => sum + n, 0);
     const last = this.#arrivals[this.#arrivals.length - 1]!;
     return last[0] > first[0] ? (1000 * count) / (last[0] - first[0]) : null;
+  }
+  #forget(now_ms: number): void {
+    this.#arrivals = this.#arrivals.filter(([at]) => now_ms - at < 2000).slice(-kArrivalsKept);
   }
 }
 

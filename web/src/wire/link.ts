@@ -16,6 +16,9 @@ export interface LinkEvents {
 const kFirstRetry_ms = 500;
 const kLastRetry_ms = 5000;
 const kHealingPatience_ms = 3000;
+/// A link that has gone without a word is open for minutes, as far as the browser can tell. The server speaks five
+/// times a second, and at the tightest cap that the page offers once in four seconds.
+const kSilence_ms = 15_000;
 
 /// The connection to the server: comes back when it was lost, notices missing messages by their numbers and asks for
 /// them again.
@@ -26,6 +29,7 @@ export class Link {
   seals = 0;
   retryAt_ms = 0;
   error = '';
+  heardAt_ms = 0; // when the last message came, or the connection was begun
   #socket: WebSocket | null = null;
   #expected = 0;
   #world = 0;
@@ -34,6 +38,7 @@ export class Link {
   #wrongSince_ms = 0;
   #pace: Pace = 'flow';
   #rate = 0;
+  #watch: ReturnType<typeof setInterval> | null = null;
 
   constructor(
     private readonly url: string,
@@ -41,10 +46,14 @@ export class Link {
   ) {}
 
   open(): void {
+    this.#watch ??= setInterval(() => this.#breakSilence(), 1000);
     this.#set('connecting');
+    this.heardAt_ms = performance.now();
     const socket = new WebSocket(this.url, 'swiftlet.v1');
     socket.binaryType = 'arraybuffer';
-    socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => this.#receive(event.data);
+    socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
+      if (socket === this.#socket) this.#receive(event.data);
+    };
     socket.onclose = () => this.#lost(socket);
     this.#socket = socket;
   }
@@ -53,6 +62,7 @@ export class Link {
     return this.#pace;
   }
   setPace(pace: Pace): void {
+    this.heardAt_ms = performance.now(); // a server that is held says nothing
     this.#pace = pace === 'step' ? 'hold' : pace;
     this.#send(encode.pace(pace));
   }
@@ -82,7 +92,15 @@ export class Link {
     this.#dropNext = count;
   }
 
+  #breakSilence(): void {
+    const socket = this.#socket;
+    if (!socket || this.#pace === 'hold' || performance.now() - this.heardAt_ms < kSilence_ms) return;
+    this.#lost(socket);
+    socket.close(); // it would wait for an answer
+  }
+
   #receive(data: string | ArrayBuffer): void {
+    this.heardAt_ms = performance.now();
     if (typeof data === 'string') {
       const hello = decodeHello(data);
       if (!hello) return;
@@ -126,7 +144,7 @@ export class Link {
 
   #set(state: LinkState): void {
     // While it tries again, a lost link stays lost.
-    if (state === 'connecting' && this.state === 'lost') return;
+    if (state !== 'open' && this.state === 'lost') return;
     this.state = state;
     if (state === 'open') {
       if (this.#pace !== 'flow') this.#send(encode.pace(this.#pace));

@@ -50,3 +50,8 @@ export class RunningProgram {
 export function cellsOf(map: string): {occupied: number; free: number} {
   return JSON.parse(execFileSync(program, ['info', map, '--json']).toString()).cells;
 }
+
+/// What `swiftlet compare` counts: free and occupied cells of both, and how many of them are the same.
+export function compared(first: string, second: string): {cells: number; same: number} {
+  return JSON.parse(execFileSync(program, ['compare', first, second, '--json']).toString());
+}

@@ -3,13 +3,14 @@
 
 // The page in a real browser, with the real program behind it, over a flight of the simulated rig.
 
-import {mkdtempSync, rmSync} from 'node:fs';
+import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
-import {chromium, type Browser, type Page} from 'playwright-core';
+import type {Browser, Page} from 'playwright-core';
 import {afterAll, afterEach, beforeAll, expect, it} from 'vitest';
 
-import {cellsOf, RunningProgram} from './program';
+import {openBrowser, until as untilOn} from './browser';
+import {cellsOf, compared, RunningProgram} from './program';
 
 const folder = mkdtempSync(join(tmpdir(), 'swiftlet-web-'));
 const map = join(folder, 'flat.swl');
@@ -43,23 +44,15 @@ const knowledge = () =>
       bytes: link.bytes, calls: viewer.renderer.info.render.calls, drawn: viewer.occupied.count, track: world.track.length,
     };
   });
-/// Playwright's own waitForFunction() evaluates text, which the page's policy forbids.
-async function until<T>(isTrue: (argument: T) => boolean, argument: T): Promise<void> {
-  const end = Date.now() + 60_000;
-  while (!(await page.evaluate(isTrue as never, argument))) {
-    if (Date.now() > end) throw new Error(`a minute has passed, and not: ${isTrue.toString()}`);
-    await page.waitForTimeout(50);
-  }
+function until<T>(isTrue: (argument: T) => boolean, argument: T): Promise<void> {
+  return untilOn(page, isTrue, argument);
 }
 async function sealed(frame: number): Promise<void> {
   await until((n) => window.swiftlet.world.sealedFrame >= n, frame);
 }
 
 beforeAll(async () => {
-  browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
-  });
+  browser = await openBrowser();
 }, 60_000);
 afterEach(async () => {
   await page?.close();
@@ -179,6 +172,47 @@ it('slice, height and inspector tell what the map holds', async () => {
   const byte = await page.evaluate((c) => window.swiftlet.world.cell(...c), cell);
   expect(Number(await page.locator('#cell-byte').innerText())).toBe(byte);
   expect(byte).toBeGreaterThanOrEqual(180);
+});
+
+it('hands out the map file, which holds the same cells', async () => {
+  const program = await start(['view', map, '--listen', '127.0.0.1:0', '--token', 'only-for-me']);
+  await open(program.url);
+  await sealed(0);
+  await page.keyboard.press('d');
+  const [swl] = await Promise.all([page.waitForEvent('download'), page.click('#get-swl')]);
+  expect(swl.suggestedFilename()).toBe('swiftlet.swl');
+  const got = join(folder, 'got.swl');
+  await swl.saveAs(got);
+  await page.locator('#downloads').waitFor({state: 'hidden'});
+  expect(pick(cellsOf(got))).toEqual(pick(cellsOf(map))); // blocks of unknown cells alone are left out
+  const {occupied, free} = cellsOf(map);
+  expect(compared(got, map)).toMatchObject({cells: occupied + free, same: occupied + free});
+  await page.keyboard.press('d');
+  const [ply] = await Promise.all([page.waitForEvent('download'), page.click('#get-ply')]);
+  const points = join(folder, 'got.ply');
+  await ply.saveAs(points);
+  expect(readFileSync(points, 'latin1')).toContain(`element vertex ${cellsOf(map).occupied}\n`);
+
+  // Seen as it was downloaded, it has the same hash.
+  const before = (await knowledge()).digest;
+  await program.end();
+  faults.length = 0; // the link was lost
+  const again = await start(['view', got, '--listen', '127.0.0.1:0']);
+  await page.close();
+  await open(again.url);
+  await sealed(0);
+  expect((await knowledge()).digest).toEqual(before);
+});
+
+it('says why there is no map file', async () => {
+  const program = await start(['view', map, '--listen', '127.0.0.1:0']);
+  await open(program.url);
+  await sealed(0);
+  await program.end('SIGKILL');
+  await page.keyboard.press('d');
+  await page.click('#get-swl');
+  await page.locator('#download-note', {hasText: 'No map file'}).waitFor();
+  faults.length = 0; // the browser says that the connection failed
 });
 
 it('comes back by itself when the server does', async () => {

@@ -5,6 +5,7 @@ import {describe, expect, it} from 'vitest';
 
 import {EventLog, FrameRate} from '../../src/state/events';
 import {occupiedAsPly} from '../../src/state/ply';
+import {sourceRates} from '../../src/state/rates';
 import {opticalAxisProfile, rotate, walk} from '../../src/state/walk';
 import {World} from '../../src/state/world';
 import type {Blocks, FrameRecord, Hello, Vec3} from '../../src/wire/messages';
@@ -144,13 +145,32 @@ describe('EventLog', () => {
       triggerCentre: [0, 0, 0], frame: 0, memoryBytes: 0, blocks: 0, pending: 0, clients: 1, rateLimit: 0,
       reportsMissed: 0, verdicts: [1, 2],
     } as const;
-    log.status({...status, verdicts: [1, 2], losses: [0, 4], windowFirst: [0, 0, 0], windowSize: [0, 0, 0], triggerCentre: [0, 0, 0]}, hello, 10);
+    const told = (losses: number[], now_ms: number): void =>
+      log.status({...status, verdicts: [1, 2], losses, windowFirst: [0, 0, 0], windowSize: [0, 0, 0], triggerCentre: [0, 0, 0]}, hello, now_ms);
+    told([90, 0], 5); // before the page was there
+    told([90, 4], 10);
     expect(log.poseLostAt_ms).toBe(-Infinity);
-    log.status({...status, verdicts: [1, 2], losses: [3, 4], windowFirst: [0, 0, 0], windowSize: [0, 0, 0], triggerCentre: [0, 0, 0]}, hello, 20);
+    told([93, 4], 20);
     expect(log.poseLostAt_ms).toBe(20);
     expect(log.list.map((e) => [e.text, e.count])).toEqual([
       ['lost: no pose', 3], ['lost: overload', 4], ['deadline: far blocks left for later', 1], ['refused: no readings', 2],
     ]);
+    log.forget();
+    told([99, 4], 30); // the link was lost for a while
+    expect(log.poseLostAt_ms).toBe(-Infinity);
+    for (let i = 0; i < 1000; ++i) log.add(i % 2 === 0 ? 'shift' : 'late', String(i));
+    expect(log.list.length).toBeLessThanOrEqual(60);
+  });
+});
+
+describe('sourceRates', () => {
+  it('are those of the stamps, also across a gap', () => {
+    const frames = Array.from({length: 60}, (_, i) => ({...frame(i), stamp_ns: BigInt(i) * 20_000_000n + (i < 30 ? 0n : 2_000_000_000n)}));
+    const rates = sourceRates(frames);
+    expect(rates[0]).toBe(0);
+    expect(rates[20]).toBeCloseTo(50, 9);
+    expect(rates[35]).toBeCloseTo(15 / 2.3, 9);
+    expect(rates[59]).toBeCloseTo(50, 9);
   });
 });
 
@@ -161,5 +181,8 @@ describe('FrameRate', () => {
     for (let t = 0; t <= 4000; t += 50) rate.add(2, t);
     expect(rate.at(4000)).toBeCloseTo(40, 9);
     expect(rate.at(7000)).toBeNull();
+    for (let i = 0; i < 5000; ++i) rate.add(1, 8000 + i / 10); // out of sight, where nobody asks
+    expect(rate.kept).toBeLessThanOrEqual(200);
+    expect(rate.at(8500)).toBeCloseTo(10_000, 6);
   });
 });

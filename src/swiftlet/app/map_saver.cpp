@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/app/map_saver.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "swiftlet/store/save_blocks.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+/// A folder that nobody else can look into; gone with what is in it at the end.
+class PrivateFolder {
+ public:
+  PrivateFolder() {
+    std::error_code none;
+    path_ = (std::filesystem::temp_directory_path(none) / "swiftlet-XXXXXX").string();
+    if (none || mkdtemp(path_.data()) == nullptr) path_.clear();
+  }
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+  ~PrivateFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const std::string& path() const { return path_; }  ///< empty: there is none
+
+ private:
+  std::string path_;
+};
+
+Expected<std::vector<std::uint8_t>> read_bytes(const std::filesystem::path& path) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(path, none);
+  std::vector<std::uint8_t> bytes(none ? 0 : size);
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (none || !file) return fail(ErrorCode::kIo, path.string(), "cannot be read back");
+  return bytes;
+}
+
+}  // namespace
+
+station::MapSaver map_saver(MapMeta meta) {
+  return
+      [meta = std::move(meta)](const station::MapCopy& map) -> Expected<std::vector<std::uint8_t>> {
+        const PrivateFolder folder;
+        if (folder.path().empty()) {
+          return fail(ErrorCode::kIo, "map file", "there is no room for temporary files",
+                      "set TMPDIR to a folder that can be written to");
+        }
+        MapMeta told = meta;
+        told["voxel_m"] = fmt::format("{}", map.voxel_m);
+        if (map.frame_count > 0 || !told.contains("frames")) {
+          told["frames"] = std::to_string(map.frame_count);
+        }
+        const auto path = std::filesystem::path(folder.path()) / "map.swl";
+        if (auto saved = save_blocks(path, map.blocks, told); !saved)
+          return forward_error(std::move(saved));
+        return read_bytes(path);
+      };
+}
+
+}  // namespace swiftlet::app
