@@ -22,22 +22,17 @@ double share_of(std::size_t part, std::size_t whole) {
 /// Depth edges along lines of pixels.
 struct EdgeCount {
   static constexpr std::ptrdiff_t kReach = 24;  // pixels before, along and behind an edge
+  static constexpr std::ptrdiff_t kLength = 3 * kReach;
   std::size_t edges = 0, ramps = 0;
 
-  /// Asks at every pixel of a line of `count` pixels that lie `step` apart.
-  void add_line(const std::uint16_t* line, std::ptrdiff_t count, std::ptrdiff_t step) {
-    const std::ptrdiff_t reach = kReach * step;
-    for (std::ptrdiff_t i = 0; i + 3 * kReach < count; ++i) {
-      const std::uint16_t* p = line + i * step;
-      add(p[0], p + reach, p[3 * reach], step);
-    }
-  }
-
- private:
-  void add(int before, const std::uint16_t* from, int behind, std::ptrdiff_t step) {
+  /// Asks the pixels p[0], p[step] .. p[kLength * step].
+  void add(const std::uint16_t* p, std::ptrdiff_t step) {
+    const std::uint16_t* from = p + kReach * step;
     const int a = from[0], b = from[kReach * step];
     const int jump = std::abs(b - a);
-    if (a == 0 || b == 0 || before == 0 || behind == 0 || 4 * jump < std::min(a, b)) return;
+    if (a == 0 || b == 0 || 4 * jump < std::min(a, b)) return;
+    const int before = p[0], behind = p[kLength * step];
+    if (before == 0 || behind == 0) return;
     if (4 * std::abs(a - before) > jump || 4 * std::abs(behind - b) > jump) return;
     ++edges;
     int steepest = 0;
@@ -94,10 +89,15 @@ double share_of_smeared_edges(const DepthImage& depth) {
   constexpr std::size_t kFewest = 600;  // about four edges as high as the image
   const int width = depth.raw.width(), height = depth.raw.height();
   EdgeCount rows, columns;
-  for (int v = kEvery / 2; v < height; v += kEvery)
-    rows.add_line(depth.raw.row(v).data(), width, 1);
-  for (int u = kEvery / 2; u < width; u += kEvery)
-    columns.add_line(&depth.raw.at(u, 0), height, width);
+  for (int v = kEvery / 2; v < height; v += kEvery) {
+    const std::uint16_t* row = depth.raw.row(v).data();
+    for (std::ptrdiff_t u = 0; u + EdgeCount::kLength < width; ++u) rows.add(row + u, 1);
+  }
+  // Row by row, for the cache.
+  for (int v = 0; v + EdgeCount::kLength < height; ++v) {
+    const std::uint16_t* row = depth.raw.row(v).data();
+    for (int u = kEvery / 2; u < width; u += kEvery) columns.add(row + u, width);
+  }
   const auto share = [](const EdgeCount& count) {
     return count.edges < kFewest ? 0.0 : share_of(count.ramps, count.edges);
   };

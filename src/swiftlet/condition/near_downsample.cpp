@@ -8,6 +8,7 @@
 
 #include "swiftlet/base/narrow.hpp"
 #include "swiftlet/condition/depth_step.hpp"
+#include "swiftlet/condition/near_kernels.hpp"
 
 namespace swiftlet {
 namespace {
@@ -15,15 +16,10 @@ namespace {
 /// A reading counts as support when it lies at most one part in so many behind the nearest.
 constexpr int kSupportParts = 20;
 
-/// What the n rows of a row of blocks hold in one column of the image. Arrays of their own and
-/// loops along the row, without a branch: the compiler puts eight columns and more into a vector.
+/// What the n rows of a row of blocks hold in one column of the image.
 struct Columns {
-  /// The smallest reading less 1. One less than 0, no reading, is the largest number there is.
-  std::vector<std::uint16_t> nearest_less_1;
-  std::vector<std::uint16_t> row;    ///< the first that holds it, counted from 0
-  std::vector<std::uint16_t> valid;  ///< readings
+  std::vector<std::uint16_t> nearest_less_1, row, valid, support;  ///< as in near_kernels.hpp
   std::vector<std::uint16_t> limit;  ///< readings up to here are support of the block
-  std::vector<std::uint16_t> support;
 
   void start(std::size_t width) {
     nearest_less_1.assign(width, 0xffff);
@@ -31,24 +27,6 @@ struct Columns {
     valid.assign(width, 0);
     support.assign(width, 0);
     limit.resize(width);
-  }
-
-  void add_row(std::span<const std::uint16_t> raw, std::uint16_t number) {
-    for (std::size_t u = 0; u < raw.size(); ++u) {
-      const auto less_1 = static_cast<std::uint16_t>(raw[u] - 1);
-      const std::uint16_t known = nearest_less_1[u], known_row = row[u];
-      row[u] = less_1 < known ? number : known_row;
-      nearest_less_1[u] = less_1 < known ? less_1 : known;
-      valid[u] = static_cast<std::uint16_t>(valid[u] + (raw[u] != 0));
-    }
-  }
-
-  void add_support(std::span<const std::uint16_t> raw) {
-    for (std::size_t u = 0; u < raw.size(); ++u) {
-      // As above, 0 becomes too large a number.
-      const bool is_support = static_cast<std::uint16_t>(raw[u] - 1) < limit[u];
-      support[u] = static_cast<std::uint16_t>(support[u] + is_support);
-    }
   }
 };
 
@@ -74,7 +52,9 @@ class NearDownsample final : public DepthStep {
   void reduce_row(const Image<std::uint16_t>& raw, int block_v, std::span<PixelOrigin> origins) {
     const int v0 = block_v * ratio_, v1 = std::min(v0 + ratio_, raw.height());
     columns_.start(raw.row(v0).size());
-    for (int v = v0; v < v1; ++v) columns_.add_row(raw.row(v), to<std::uint16_t>(v - v0));
+    for (int v = v0; v < v1; ++v)
+      add_row_of_readings(raw.row(v), to<std::uint16_t>(v - v0), columns_.nearest_less_1.data(),
+                          columns_.row.data(), columns_.valid.data());
     const std::span<std::uint16_t> nearest = reduced_.row(block_v);
     for (std::size_t block_u = 0; block_u < origins.size(); ++block_u) {
       origins[block_u] = nearest_of(block_u, v0);
@@ -85,7 +65,8 @@ class NearDownsample final : public DepthStep {
       std::fill(columns_.limit.begin() + first, columns_.limit.begin() + end,
                 static_cast<std::uint16_t>(std::min(limit, 0xffff)));
     }
-    for (int v = v0; v < v1; ++v) columns_.add_support(raw.row(v));
+    for (int v = v0; v < v1; ++v)
+      add_row_of_support(raw.row(v), columns_.limit.data(), columns_.support.data());
     for (std::size_t block_u = 0; block_u < origins.size(); ++block_u) {
       const auto [first, end] = columns_of(block_u);
       for (auto u = first; u < end; ++u)
