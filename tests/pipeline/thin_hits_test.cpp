@@ -37,14 +37,16 @@ Occupancy claim(const Mapper& mapper, const VoxelIndex& v) {
 }
 
 TEST(ThinHits, keep_a_rod_that_the_mean_of_all_rays_erases) {
-  Mapper thesis = mapper_with("thesis"), sharp = mapper_with("sharp");
+  Mapper thesis = mapper_with("thesis"), guarded = mapper_with("guarded"),
+         sharp = mapper_with("sharp");
   for (int i = 0; i < 20; ++i) {
-    thesis.integrate(rod_before_wall(true));
-    sharp.integrate(rod_before_wall(true));
+    for (Mapper* mapper : {&thesis, &guarded, &sharp}) mapper->integrate(rod_before_wall(true));
   }
   EXPECT_EQ(claim(thesis, kRodCell), Occupancy::kFree);
-  EXPECT_EQ(claim(sharp, kRodCell), Occupancy::kOccupied);
-  EXPECT_EQ(claim(sharp, kBeside), Occupancy::kFree);
+  for (const Mapper* mapper : {&guarded, &sharp}) {
+    EXPECT_EQ(claim(*mapper, kRodCell), Occupancy::kOccupied);
+    EXPECT_EQ(claim(*mapper, kBeside), Occupancy::kFree);
+  }
 }
 
 TEST(ThinHits, notice_a_rod_in_space_that_was_surely_free_within_five_frames) {

@@ -34,7 +34,7 @@ tl::expected<ScoreJob, Faults> job_of(const ScoreOptions& options) {
     config->mapper.depth.max_range_m = range_of(options.source, {});
   ScoreJob job{options.source, config->mapper, options.maps, options.frames};
   if (job.maps.empty()) {
-    job.maps = {std::string(kThesisFusion), std::string(kSharpFusion)};
+    job.maps = {std::string(kThesisFusion), std::string(kGuardedFusion), std::string(kSharpFusion)};
     if (make_octomap_contender(config->mapper, false)) job.maps.emplace_back(kOctomap);
   }
   return job;
@@ -65,7 +65,7 @@ Action declare_score(CLI::App& parser) {
       ->required();
   parser
       .add_option("--maps", o->maps,
-                  "fusions or integrators, and octomap; default: thesis,sharp,octomap")
+                  "fusions or integrators, and octomap; default: thesis,guarded,sharp,octomap")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAMES");

@@ -43,12 +43,12 @@ struct Face {
     most = hn::Neg(least);
   }
 
-  template <class What, bool kIsInside>
+  template <class What, bool IsInside>
   HWY_INLINE void add(const FrameInView& frame, const CellLook& look, const Float3& to) {
-    const Sample s = sample_at<kIsInside>(frame, look.tiles, middle, to);
+    const Sample s = sample_at<IsInside>(frame, look.tiles, middle, to);
     const FloatLanes rays = hn::Mul(s.per_z, hn::Mul(s.per_z, s.per_z));
     FloatLanes log_odds = What::log_odds(frame, look.tiles, s, z_cell);
-    if constexpr (!kIsInside) log_odds = hn::IfThenElseZero(s.is_inside, log_odds);
+    if constexpr (!IsInside) log_odds = hn::IfThenElseZero(s.is_inside, log_odds);
     sum = hn::Add(sum, hn::Mul(rays, log_odds));
     least = hn::Min(least, log_odds);
     most = hn::Max(most, log_odds);
@@ -63,7 +63,7 @@ struct Face {
 /// The sum over rays as an integral over the faces that the camera sees: each is crossed by
 /// |n q| / q_z^3 rays per area, and a ray counts DW, z^2 times a constant that the area cancels.
 /// Adds one face's part to the sums of a group of cells.
-template <class What, bool kIsInside>
+template <class What, bool IsInside>
 HWY_INLINE void add_face(const FrameInView& frame, const CellLook& look, const CellLanes* cells,
                          std::size_t axis, FloatLanes* sums) {
   constexpr Floats f;
@@ -73,12 +73,12 @@ HWY_INLINE void add_face(const FrameInView& frame, const CellLook& look, const C
   std::size_t count = std::min(places.size(), kFew);
   bool is_flat = true;
   for (Face& face : faces) {
-    for (std::size_t k = 0; k < count; ++k) face.add<What, kIsInside>(frame, look, places[k]);
+    for (std::size_t k = 0; k < count; ++k) face.add<What, IsInside>(frame, look, places[k]);
     is_flat = is_flat && face.is_flat();
   }
   if (!is_flat) {
     for (Face& face : faces) {
-      for (const Float3& to : places.subspan(count)) face.add<What, kIsInside>(frame, look, to);
+      for (const Float3& to : places.subspan(count)) face.add<What, IsInside>(frame, look, to);
     }
     count = places.size();
   }
@@ -90,7 +90,7 @@ HWY_INLINE void add_face(const FrameInView& frame, const CellLook& look, const C
   }
 }
 
-template <class What, bool kIsInside>
+template <class What, bool IsInside>
 HWY_INLINE void fill(const FrameInView& frame, const CellCube& block, const CellList& list,
                      const CellLook& look, FixedSteps* evidence) {
   constexpr Floats f;
@@ -106,7 +106,7 @@ HWY_INLINE void fill(const FrameInView& frame, const CellCube& block, const Cell
       sums[v] = hn::Zero(f);
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
-      add_face<What, kIsInside>(frame, look, cells, axis, sums);
+      add_face<What, IsInside>(frame, look, cells, axis, sums);
     HWY_ALIGN FixedSteps steps[kGroup];
     for (std::size_t v = 0; v < kVectors; ++v) {
       const FloatLanes z = hn::Max(hn::Zero(f), cells[v].camera[2]);

@@ -10,6 +10,9 @@ namespace swiftlet {
 namespace {
 
 constexpr std::size_t kDepths = 65536;
+/// The level of the pyramid whose tiles are asked before their pixels.
+constexpr int kLevel = 1;
+constexpr int kTile = DepthPyramid::kTile << kLevel;
 
 /// Something farther on one side at least, nothing near on the other: beside a near object a stereo
 /// camera is blind on one side.
@@ -63,13 +66,46 @@ void ThinHits::add(const VoxelIndex& cell, const RollingMap& map) {
   ++slot.hits;
 }
 
+bool ThinHits::may_have_ridge(int tile_u, int tile_v) const {
+  const PyramidTiles tiles = pyramid_.tiles();
+  const std::int32_t* words = tiles.words + tiles.first[kLevel];
+  const int width = tiles.width[kLevel];
+  const int height = (tiles.first[kLevel + 1] - tiles.first[kLevel]) / width;
+  const auto word = [&](int u, int v) { return static_cast<std::uint32_t>(words[v * width + u]); };
+  if (word(tile_u, tile_v) >> 16U == 0) return false;
+  // The nearest reading looks farthest to the side, and needs the least behind it.
+  const Limits& limits = limits_[word(tile_u, tile_v) & 0xfffeU];
+  const int reach = (limits.reach_px + kTile - 1) / kTile;
+  const auto is_behind = [&](int u, int v) { return word(u, v) >> 16U > limits.far; };
+  for (int u = std::max(0, tile_u - reach); u <= std::min(width - 1, tile_u + reach); ++u) {
+    if (is_behind(u, tile_v)) return true;
+  }
+  for (int v = std::max(0, tile_v - reach); v <= std::min(height - 1, tile_v + reach); ++v) {
+    if (is_behind(tile_u, v)) return true;
+  }
+  return false;
+}
+
 void ThinHits::collect(const DepthView& view, const RollingMap& map) {
   ++frame_;
   touched_.clear();
   look_up_limits(view, map.voxel_m());
+  const Image<std::uint16_t>& raw = view.depth.raw;
+  pyramid_.build(raw, team_);
+  const bool has_tiles = pyramid_.tiles().levels > kLevel + 1;
+  for (int v = 0; v * kTile < raw.height(); ++v) {
+    for (int u = 0; u * kTile < raw.width(); ++u) {
+      if (!has_tiles || may_have_ridge(u, v)) collect_tile(view, u, v, map);
+    }
+  }
+}
+
+void ThinHits::collect_tile(const DepthView& view, int tile_u, int tile_v, const RollingMap& map) {
   const ConditionedDepth& depth = view.depth;
-  for (int v = 0; v < depth.raw.height(); ++v) {
-    for (int u = 0; u < depth.raw.width(); ++u) {
+  const int u_end = std::min((tile_u + 1) * kTile, depth.raw.width());
+  const int v_end = std::min((tile_v + 1) * kTile, depth.raw.height());
+  for (int v = tile_v * kTile; v < v_end; ++v) {
+    for (int u = tile_u * kTile; u < u_end; ++u) {
       const std::uint16_t z = depth.raw.at(u, v);
       if (z == 0 || !is_on_ridge(depth.raw, u, v, limits_[z])) continue;
       const PixelOrigin pixel = depth.origin_of(u, v);

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "swiftlet/base/worker_team.hpp"
+#include "swiftlet/integrate/depth_pyramid.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 
 namespace swiftlet {
@@ -47,6 +49,9 @@ class ThinHits {
     int hits = 0;
     LogOdds before = kUnknownCell;
   };
+  /// A square of pixels; false: there is no ridge in it.
+  [[nodiscard]] bool may_have_ridge(int tile_u, int tile_v) const;
+  void collect_tile(const DepthView& view, int tile_u, int tile_v, const RollingMap& map);
   void add(const VoxelIndex& cell, const RollingMap& map);
   void look_up_limits(const DepthView& view, double voxel_m);
 
@@ -55,6 +60,8 @@ class ThinHits {
   std::vector<Slot> slots_;             // open addressing
   std::vector<std::uint32_t> touched_;  // slots of this frame, in the order of the pixels
   std::uint32_t frame_ = 0;
+  WorkerTeam team_{1};
+  DepthPyramid pyramid_;
 };
 
 }  // namespace swiftlet

@@ -26,8 +26,8 @@ struct Sample {
 };
 
 /// 2^23: floats from here on are whole numbers, and their last bits are the number.
-constexpr float kWholeNumbers = 8388608.0F;
-constexpr std::int32_t kWholeBits = 0x7fffff;
+inline constexpr float kWholeNumbers = 8388608.0F;
+inline constexpr std::int32_t kWholeBits = 0x7fffff;
 
 /// Rounded to the nearest, in the last 23 bits; a conversion that is right for all floats takes
 /// three times as long. REQUIRES: 0 <= x < 2^22.
@@ -35,8 +35,8 @@ HWY_INLINE IntLanes whole_number(FloatLanes x) {
   return hn::BitCast(Ints(), hn::Add(x, hn::Set(Floats(), kWholeNumbers)));
 }
 
-/// With kIsInside, all of the cells is known to lie inside the image.
-template <bool kIsInside>
+/// With IsInside, all of the cells is known to lie inside the image.
+template <bool IsInside>
 HWY_INLINE Sample sample_at(const FrameInView& frame, const ReadingTiles& tiles,
                             const FloatLanes* face, const Float3& to) {
   constexpr Floats f;
@@ -50,7 +50,7 @@ HWY_INLINE Sample sample_at(const FrameInView& frame, const ReadingTiles& tiles,
     return hn::Add(hn::Mul(slope, hn::Set(f, focal)), hn::Set(f, offset));
   };
   FloatLanes u = place(0, frame.fx, frame.u_offset), v = place(1, frame.fy, frame.v_offset);
-  if constexpr (!kIsInside) {
+  if constexpr (!IsInside) {
     const auto is_in_u = hn::And(hn::Ge(u, zero), hn::Lt(u, hn::Set(f, frame.width)));
     const auto is_in_v = hn::And(hn::Ge(v, zero), hn::Lt(v, hn::Set(f, frame.height)));
     s.is_inside = hn::And(hn::Gt(s.z, zero), hn::And(is_in_u, is_in_v));

@@ -101,8 +101,8 @@ void integrate(Options& o, Visit& visit) {
       o.integrator);
   visit(
       ConfigField{"integrate.fusion",
-                  "thesis: the thesis's rule; sharp: noise is averaged, edges are dropped and thin "
-                  "things kept first"},
+                  "thesis: the thesis's rule; guarded: the same, and thin things are kept; sharp: "
+                  "noise is averaged and edges are dropped first, too"},
       o.fusion);
   visit(ConfigField{"integrate.ray_method", "how rays are traced (see `swiftlet list rays`)"},
         o.ray_method);

@@ -35,7 +35,7 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
       gate_(std::make_unique<FrameGate>(config.quality)),
       conditioner_(std::move(conditioner)),
       integrator_(std::move(integrator)) {
-  if (config.integrate.fusion == kSharpFusion) thin_.emplace();
+  if (config.integrate.fusion != kThesisFusion) thin_ = std::make_unique<ThinHits>();
   if (config.integrate.decay_s > 0.0)
     decay_ = std::make_unique<GhostDecay>(config.integrate.decay_s);
 }
@@ -71,7 +71,7 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   update.shift = map_.recentre(frame.T_world_camera.translation(), archive_);
   timer.finish(Stage::kRecentre);
   instrument.subpixel_px *= double{depth.noise_left};
-  if (thin_) {
+  if (config_.integrate.fusion == kSharpFusion) {
     // With the noise averaged away, k need not carry far walls, and half a cell keeps them thin.
     double& k_m = instrument.model.importance_m;
     k_m = std::min(k_m, 0.5 * map_.voxel_m());

@@ -72,7 +72,7 @@ class Mapper {
   std::unique_ptr<FrameGate> gate_;
   Conditioner conditioner_;
   std::unique_ptr<Integrator> integrator_;
-  std::optional<ThinHits> thin_;       // with sharp fusion only
+  std::unique_ptr<ThinHits> thin_;     // null: with the thesis's rule
   std::unique_ptr<GhostDecay> decay_;  // null: never
   std::uint64_t frame_count_ = 0;
 };

@@ -69,7 +69,7 @@ std::vector<Error> MapperConfig::faults() const {
   if (!is_fusion(integrate.fusion)) {
     faults.push_back({ErrorCode::kInvalidConfig, "integrate.fusion",
                       fmt::format("unknown fusion '{}'", integrate.fusion),
-                      "known are: thesis, sharp"});
+                      "known are: thesis, guarded, sharp"});
   }
   keep_fault(faults, "integrate.ray_method", find_ray_method(integrate.ray_method));
   const bool is_straightened = std::ranges::find(depth.steps, "distortion") != depth.steps.end();

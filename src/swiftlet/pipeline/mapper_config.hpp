@@ -17,12 +17,13 @@
 
 namespace swiftlet {
 
-/// How the readings of a frame become evidence: as the thesis has it, or with readings that are
-/// weighed against their neighbours first and thin things kept (docs/accuracy.md).
+/// How the readings of a frame become evidence: as the thesis has it; the same, with thin things
+/// kept; or with readings that are weighed against their neighbours first, too (docs/accuracy.md).
 inline constexpr std::string_view kThesisFusion = "thesis";
+inline constexpr std::string_view kGuardedFusion = "guarded";
 inline constexpr std::string_view kSharpFusion = "sharp";
 [[nodiscard]] constexpr bool is_fusion(std::string_view name) {
-  return name == kThesisFusion || name == kSharpFusion;
+  return name == kThesisFusion || name == kGuardedFusion || name == kSharpFusion;
 }
 
 /// Every parameter of the mapper, with its default.
