@@ -80,7 +80,7 @@ function overlaps(): string[] {
 }
 
 type Size = keyof typeof kSizes;
-/// The state must still be the same when all has been looked at.
+/// The state must still be the same when all has been looked at, but for a flight that stutters on a busy machine.
 async function lookAt(name: string, sizes: Size[] = ['phone', 'tablet', 'desktop']): Promise<void> {
   const state = await page.locator('#state').getAttribute('data-state');
   for (const size of sizes) {
@@ -96,7 +96,7 @@ async function lookAt(name: string, sizes: Size[] = ['phone', 'tablet', 'desktop
       await page.waitForTimeout(200);
     }
   }
-  expect(await page.locator('#state').getAttribute('data-state')).toBe(state);
+  await expect.poll(() => page.locator('#state').getAttribute('data-state'), {message: name, timeout: 60_000}).toBe(state);
 }
 async function says(id: string, what: string): Promise<void> {
   await page.locator(id, {hasText: what}).waitFor({timeout: 60_000});
