@@ -2,8 +2,9 @@
 // Copyright the Swiftlet authors
 
 import {execFileSync, spawn, type ChildProcess} from 'node:child_process';
+import {fileURLToPath} from 'node:url';
 
-export const program = process.env.SWIFTLET_PROGRAM ?? '../build/release/src/swiftlet/swiftlet';
+export const program = process.env.SWIFTLET_PROGRAM ?? fileURLToPath(new URL('../../../build/release/src/swiftlet/swiftlet', import.meta.url));
 
 /// `swiftlet map --view` or `swiftlet view`, running.
 export class RunningProgram {
