@@ -108,8 +108,8 @@ void FrameEvidence::look(const CubeInView& cube, Work& work) const {
                 .is_inside_image = !is_near && view_.is_inside_image(cube)};
   look.samples.spread(static_cast<int>(count), cube.p_world, frame_.voxel_m, frame_.world_axis,
                       frame_number_);
-  passed.fill_last_vector();
-  sampled.fill_last_vector();
+  passed.fill_last_group();
+  sampled.fill_last_group();
   FixedSteps* steps = work.evidence.steps.data();
   fill_passed(frame_, work.block, passed, look, steps);
   fill_sampled(frame_, work.block, sampled, look, steps);

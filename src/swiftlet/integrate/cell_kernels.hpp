@@ -52,8 +52,8 @@ struct CellList {
       for (int i = 0; i < edge; ++i) add(place + i);
     }
   }
-  /// The lanes of the last vector that have no cell do what the first one does.
-  void fill_last_vector() {
+  /// The lanes of the last group that have no cell do what the first one does.
+  void fill_last_group() {
     for (std::size_t i = count; i < count + kSpare; ++i) {
       x[i] = x[0];
       y[i] = y[0];

@@ -66,8 +66,7 @@ void ThinHits::add(const VoxelIndex& cell, const RollingMap& map) {
   ++slot.hits;
 }
 
-bool ThinHits::may_have_ridge(int tile_u, int tile_v) const {
-  const PyramidTiles tiles = pyramid_.tiles();
+bool ThinHits::may_have_ridge(const PyramidTiles& tiles, int tile_u, int tile_v) const {
   const std::int32_t* words = tiles.words + tiles.first[kLevel];
   const int width = tiles.width[kLevel];
   const int height = (tiles.first[kLevel + 1] - tiles.first[kLevel]) / width;
@@ -92,10 +91,11 @@ void ThinHits::collect(const DepthView& view, const RollingMap& map) {
   look_up_limits(view, map.voxel_m());
   const Image<std::uint16_t>& raw = view.depth.raw;
   pyramid_.build(raw, team_);
-  const bool has_tiles = pyramid_.tiles().levels > kLevel + 1;
+  const PyramidTiles tiles = pyramid_.tiles();
+  const bool has_tiles = tiles.levels > kLevel + 1;
   for (int v = 0; v * kTile < raw.height(); ++v) {
     for (int u = 0; u * kTile < raw.width(); ++u) {
-      if (!has_tiles || may_have_ridge(u, v)) collect_tile(view, u, v, map);
+      if (!has_tiles || may_have_ridge(tiles, u, v)) collect_tile(view, u, v, map);
     }
   }
 }

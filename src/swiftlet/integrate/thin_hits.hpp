@@ -50,7 +50,7 @@ class ThinHits {
     LogOdds before = kUnknownCell;
   };
   /// A square of pixels; false: there is no ridge in it.
-  [[nodiscard]] bool may_have_ridge(int tile_u, int tile_v) const;
+  [[nodiscard]] bool may_have_ridge(const PyramidTiles& tiles, int tile_u, int tile_v) const;
   void collect_tile(const DepthView& view, int tile_u, int tile_v, const RollingMap& map);
   void add(const VoxelIndex& cell, const RollingMap& map);
   void look_up_limits(const DepthView& view, double voxel_m);
