@@ -48,9 +48,7 @@ ConditionedDepth in_mm(const Image<std::uint16_t>& image) {
 }
 
 /// Steps that may move a reading, though never out of nothing.
-bool moves_readings(std::string_view name) {
-  return name == "smooth" || name == "to_centres" || name == "distortion";
-}
+bool moves_readings(std::string_view name) { return name == "smooth" || name == "distortion"; }
 
 class EveryDepthStep : public testing::TestWithParam<Registered<MakeDepthStep>> {};
 
@@ -187,18 +185,6 @@ TEST(Smooth, leaves_a_third_of_the_noise_of_a_wall_and_its_depth) {
   const double n = 200.0 * 100.0;
   EXPECT_NEAR(sum / n, 0.0, 2.0);
   EXPECT_LT(std::sqrt(squares / n), 0.3 * 64.0) << "as it tells the map";
-}
-
-TEST(ToCentres, moves_every_reading_half_a_cell_back_and_says_so) {
-  Image<std::uint16_t> image(3, 1);
-  std::ranges::copy(std::array<std::uint16_t, 3>{0, 1000, 65530}, image.pixels().begin());
-  ConditionedDepth depth = in_mm(image);
-  depth.half_cell_m = 0.05F;
-  find_registered(depth_steps(), "to_centres", "step")->make({})->apply(depth);
-  EXPECT_EQ(depth.raw.at(0, 0), 0);
-  EXPECT_EQ(depth.raw.at(1, 0), 1050);
-  EXPECT_EQ(depth.raw.at(2, 0), 65535) << "no reading becomes a near one";
-  EXPECT_FLOAT_EQ(depth.shift_m, 0.05F);
 }
 
 // Eq. A.3 in doubles, term by term.

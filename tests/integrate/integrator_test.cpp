@@ -211,6 +211,35 @@ TEST(EvidenceSums, round_without_bias) {
   }
 }
 
+TEST(EvidenceSums, take_a_held_cell_to_unknown_but_not_on_to_free) {
+  auto map = RollingMap::create({}).value();
+  map.recentre(Eigen::Vector3d::Zero(), nullptr);
+  const VoxelIndex held{0, 0, 0}, passed{1, 0, 0}, was_free{2, 0, 0};
+  const auto start = [&](const VoxelIndex& v, LogOdds value) {
+    map.writable(block_of(v)).cells[offset_in_block(v)] = value;
+  };
+  start(held, 200);
+  start(passed, 200);
+  start(was_free, 50);
+  EvidenceSums sums;
+  for (std::uint64_t frame = 0; frame < 10; ++frame) {
+    sums.begin(map.window());
+    for (const VoxelIndex& v : {held, passed, was_free}) {
+      sums.add(v, static_cast<FixedSteps>(-20 * kOneStep));
+      sums.add_ends(v, v == passed ? -1 : 1);
+    }
+    sums.apply(frame, map);
+  }
+  EXPECT_EQ(map.log_odds(held), kUnknownCell);
+  EXPECT_EQ(map.log_odds(passed), kFreeCell);
+  EXPECT_EQ(map.log_odds(was_free), 50) << "what is held is not raised either";
+  sums.begin(map.window());
+  sums.add(held, static_cast<FixedSteps>(30 * kOneStep));
+  sums.add_ends(held, 1);
+  sums.apply(10, map);
+  EXPECT_EQ(map.log_odds(held), kUnknownCell + 30);
+}
+
 TEST(EvidenceSums, saturate_instead_of_wrapping) {
   RollingMap map = new_map();
   EvidenceSums sums;

@@ -110,7 +110,7 @@ TEST(MapperConfig, sharp_fusion_adds_its_steps_behind_the_range_gate) {
   config.integrate.fusion = "sharp";
   EXPECT_EQ(config.conditioning().steps,
             (std::vector<std::string>{"distortion", "range_gate", "lone_pixels", "smooth",
-                                      "to_centres", "near_downsample"}));
+                                      "near_downsample"}));
   config.integrate.fusion = "blunt";
   ASSERT_EQ(config.faults().size(), 1U);
   EXPECT_EQ(config.faults().front().where, "integrate.fusion");

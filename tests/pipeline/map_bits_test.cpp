@@ -19,6 +19,7 @@ struct Case {
   const char* integrator;
   const char* ray_method;
   int downsample;
+  const char* fusion;
   std::uint64_t hash;
 };
 
@@ -30,6 +31,7 @@ TEST_P(MapBitsOf, are_those_of_every_machine) {
   config.integrate.integrator = GetParam().integrator;
   config.integrate.ray_method = GetParam().ray_method;
   config.depth.downsample = GetParam().downsample;
+  config.integrate.fusion = GetParam().fusion;
   auto mapper = Mapper::create(config);
   ASSERT_TRUE(mapper);
   test::Random random(11);
@@ -42,11 +44,14 @@ TEST_P(MapBitsOf, are_those_of_every_machine) {
 
 INSTANTIATE_TEST_SUITE_P(
     Integrators, MapBitsOf,
-    ::testing::Values(Case{"every_pixel", "projective", "voxel_traversal", 1, 0xe227b995d95ed055U},
-                      Case{"nearest_of_4_x_4", "projective", "voxel_traversal", 4,
-                           0xb9b711321d27e3f3U},
-                      Case{"voxel_traversal", "rays", "voxel_traversal", 1, 0x2fac9742b058cfb2U},
-                      Case{"line_drawing", "rays", "line_drawing", 1, 0xc99587e92dccb4dbU}),
+    ::testing::Values(
+        Case{"every_pixel", "projective", "voxel_traversal", 1, "thesis", 0xe227b995d95ed055U},
+        Case{"nearest_of_4_x_4", "projective", "voxel_traversal", 4, "thesis", 0xb9b711321d27e3f3U},
+        Case{"voxel_traversal", "rays", "voxel_traversal", 1, "thesis", 0x2fac9742b058cfb2U},
+        Case{"line_drawing", "rays", "line_drawing", 1, "thesis", 0xc99587e92dccb4dbU},
+        Case{"guarded", "projective", "voxel_traversal", 1, "guarded", 0x3593c08f6d8e0eeaU},
+        Case{"sharp", "projective", "voxel_traversal", 1, "sharp", 0xfc93e030d4482cdeU},
+        Case{"sharp_rays", "rays", "voxel_traversal", 1, "sharp", 0x5c1cb696e722203bU}),
     [](const auto& test) { return std::string(test.param.name); });
 
 /// With what comes before and after the integrator: the depths of a bent camera straightened, and

@@ -61,20 +61,21 @@ struct Agreement {
 class AgreementCheck {
  public:
   AgreementCheck(double voxel_m, const Eigen::Vector3d& size_m, const Eigen::Vector3d& middle_m,
-                 double max_range_m, double baseline_m = 0.05)
+                 double max_range_m, double baseline_m = 0.05, CellShape shape = CellShape::kSlice)
       : candidate_map_(new_map(voxel_m, size_m, middle_m)),
         reference_map_(new_map(voxel_m, size_m, middle_m)),
         candidate_(*make_integrator({.integrator = "projective"})),
         reference_(*make_integrator({.integrator = "rays"})),
         conditioner_(*Conditioner::create({.max_range_m = max_range_m, .downsample = 1})),
         options_{.baseline_m = baseline_m, .model = {}},
+        shape_(shape),
         trace_(find_ray_method("voxel_traversal")->trace),
         box_(voxel_box(reference_map_.window())),
         observations_(reference_map_.window().block_count() * kBlockVoxels) {}
 
   void add(const Frame& frame) {
-    const ConditionedDepth& depth = conditioner_.clean(frame.depth, frame.intrinsics, {});
-    const StereoSensor sensor(frame.intrinsics, options_, candidate_map_.voxel_m(), 1);
+    const ConditionedDepth& depth = conditioner_.clean(frame.depth, frame.intrinsics, 0.004);
+    const StereoSensor sensor(frame.intrinsics, options_, candidate_map_.voxel_m(), 1, shape_);
     const DepthView view{depth, frame.intrinsics, frame.T_world_camera, frames_++};
     const auto a = candidate_->integrate(view, sensor, candidate_map_);
     const auto b = reference_->integrate(view, sensor, reference_map_);
@@ -142,6 +143,7 @@ class AgreementCheck {
   std::unique_ptr<Integrator> candidate_, reference_;
   Conditioner conditioner_;
   SensorOptions options_;
+  CellShape shape_;
   TraceRay trace_;
   VoxelBox box_;
   std::vector<float> observations_;  // of all frames: each ray counts DW

@@ -30,9 +30,7 @@ struct ConditionedDepth {
   Image<PixelOrigin> origin;  ///< same shape as raw; empty while ratio is 1
   /// Deviation of a reading as the sensor made it, over the square of its depth [1/m]: s / (f B).
   float noise_per_m = 0.004F;
-  float noise_left = 1.0F;   ///< share of that deviation that steps have left
-  float half_cell_m = 0.0F;  ///< of the map that the image is for
-  float shift_m = 0.0F;      ///< what steps have added to every reading
+  float noise_left = 1.0F;  ///< share of that deviation that steps have left
 
   /// Where reduced pixel (u, v) was measured in the full image.
   [[nodiscard]] PixelOrigin origin_of(int u, int v) const {

@@ -16,15 +16,13 @@ Expected<Conditioner> Conditioner::create(const ConditionOptions& options) {
 }
 
 const ConditionedDepth& Conditioner::clean(const DepthImage& depth, const PinholeIntrinsics& lens,
-                                           const Setting& setting) {
+                                           double noise_per_m) {
   depth_.raw = depth.raw;  // same size: copies without allocating
   depth_.unit_m = depth.unit_m;
   depth_.lens = lens;
   depth_.ratio = 1;
-  depth_.noise_per_m = static_cast<float>(setting.noise_per_m);
-  depth_.half_cell_m = static_cast<float>(setting.half_cell_m);
+  depth_.noise_per_m = static_cast<float>(noise_per_m);
   depth_.noise_left = 1.0F;
-  depth_.shift_m = 0.0F;
   for (const auto& step : steps_) step->apply(depth_);
   return depth_;
 }

@@ -18,17 +18,10 @@ class Conditioner {
   /// Errors: kUsage for a step that does not exist, naming those that do.
   [[nodiscard]] static Expected<Conditioner> create(const ConditionOptions& options);
 
-  /// What the steps may know besides the image; see ConditionedDepth.
-  struct Setting {
-    double noise_per_m = 0.004;
-    double half_cell_m = 0.0;
-  };
-
-  /// The result belongs to the conditioner and is good until the next call.
-  /// REQUIRES: the image has the size of its intrinsics.
+  /// `noise_per_m` as in ConditionedDepth. The result belongs to the conditioner and is good until
+  /// the next call. REQUIRES: the image has the size of its intrinsics.
   [[nodiscard]] const ConditionedDepth& clean(const DepthImage& depth,
-                                              const PinholeIntrinsics& lens,
-                                              const Setting& setting);
+                                              const PinholeIntrinsics& lens, double noise_per_m);
 
  private:
   Conditioner() = default;

@@ -15,14 +15,12 @@ class LonePixels final : public DepthStep {
   explicit LonePixels(const ConditionOptions&) {}
 
   void apply(ConditionedDepth& depth) override {
-    constexpr int kSupport = 2;
-    neighbours_.replace_each(depth, 1, [](std::uint16_t d, int count, int) {
-      return count > kSupport ? d : std::uint16_t{0};
-    });
+    constexpr int kLeast = 3;  // itself and two
+    neighbours_.keep_supported(depth, kLeast);
   }
 
  private:
-  NeighbourSums neighbours_;
+  Neighbours neighbours_;
 };
 
 }  // namespace

@@ -27,59 +27,50 @@ struct NoiseTolerance {
 /// Allocates only when the size of images changes.
 class BorderedImage {
  public:
-  static constexpr int kBorder = 2;
   static constexpr int kSlack = 64;  ///< pixels that a vector may reach beyond a row
 
   void take(const Image<std::uint16_t>& image);
-  /// Row v of the image, of which the pixels -kBorder .. width + kBorder can be read, and whole
-  /// vectors behind. REQUIRES: -kBorder <= v < height + kBorder.
+  explicit BorderedImage(int border_px) : border_(border_px) {}
+
+  /// Row v of the image, of which the pixels -border .. width + border can be read, and whole
+  /// vectors behind. REQUIRES: -border <= v < height + border.
   [[nodiscard]] const std::uint16_t* row(int v) const {
-    return &pixels_[static_cast<std::size_t>(v + kBorder) * stride_ + kBorder];
+    return &pixels_[static_cast<std::size_t>(v + border_) * stride_ +
+                    static_cast<std::size_t>(border_)];
   }
 
  private:
-  int width_ = 0, height_ = 0;
+  int border_, width_ = 0, height_ = 0;
   std::size_t stride_ = 0;
   std::vector<std::uint16_t> pixels_;
 };
 
-/// One row to be gathered, and where to.
+/// One row of an image, and room for what is known of it.
 struct NeighbourRow {
   const BorderedImage* image;
-  int v;
-  const std::uint16_t* tolerance;
-  std::uint16_t* count;
-  std::uint16_t* sum;
+  int v, width;
+  NoiseTolerance noise;
+  std::uint16_t *tolerance, *count, *sum, *result;
 };
 
-/// How many of the readings around each pixel of a row agree with it, and how much deeper they are
-/// together: on the widest vectors of this machine, the same values on all of them.
+/// Replaces readings by what those around them say, on the widest vectors of this machine: the same
+/// values on all of them. Two readings agree if they differ by no more than noise_tolerance() at
+/// the one that asks; 0, no reading, stays 0 and agrees with none.
 /// Real time: allocates only when the size of images changes.
-class NeighbourSums {
+class Neighbours {
  public:
-  /// Replaces every pixel of an image by pick(pixel, count, sum): how many readings of the square
-  /// of 3 x 3 (reach 1) or 5 x 5 (reach 2) around it agree with it, itself included, and the sum of
-  /// their differences to it, in device units. A pixel without a reading agrees with those that
-  /// have none.
-  template <class Pick>
-  void replace_each(ConditionedDepth& depth, int reach, Pick&& pick) {
-    const NoiseTolerance tolerance = noise_tolerance(depth);
-    take(depth.raw);
-    for (int v = 0; v < depth.raw.height(); ++v) {
-      gather(v, reach, tolerance);
-      const auto row = depth.raw.row(v);
-      for (std::size_t u = 0; u < row.size(); ++u)
-        row[u] = pick(row[u], int{count_[u]}, int{static_cast<std::int16_t>(sum_[u])});
-    }
-  }
+  /// Drops every reading that fewer than `least` of the 3 x 3 around it agree with, itself
+  /// included.
+  void keep_supported(ConditionedDepth& depth, int least);
+  /// Replaces every reading by the mean of those of the 5 x 5 around it that agree with it.
+  void average(ConditionedDepth& depth);
 
  private:
-  void take(const Image<std::uint16_t>& image);
-  void gather(int v, int reach, const NoiseTolerance& tolerance);
+  template <class MakeRow>
+  void replace_rows(ConditionedDepth& depth, MakeRow make_row);
 
-  BorderedImage image_;
-  int width_ = 0;
-  std::vector<std::uint16_t> tolerance_, count_, sum_;  // of one row, and room for a vector
+  BorderedImage image_{2};
+  std::vector<std::uint16_t> tolerance_, count_, sum_, result_;  // of a row, and room for a vector
 };
 
 }  // namespace swiftlet

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include <algorithm>
-#include <cmath>
-
 #include "swiftlet/condition/depth_step.hpp"
 #include "swiftlet/condition/neighbour_kernels.hpp"
 
@@ -20,16 +17,12 @@ class Smooth final : public DepthStep {
 
   void apply(ConditionedDepth& depth) override {
     constexpr float kNoiseLeft = 0.3F;
-    neighbours_.replace_each(depth, 2, [](std::uint16_t d, int count, int sum) {
-      const float deeper = static_cast<float>(sum) / static_cast<float>(std::max(count, 1));
-      const long mean = std::lround(static_cast<float>(d) + deeper);
-      return static_cast<std::uint16_t>(d == 0 ? 0 : mean);
-    });
+    neighbours_.average(depth);
     depth.noise_left *= kNoiseLeft;
   }
 
  private:
-  NeighbourSums neighbours_;
+  Neighbours neighbours_;
 };
 
 }  // namespace

@@ -6,12 +6,11 @@
 #include "swiftlet/condition/depth_step.hpp"
 
 // A depth step is one file, which ends in make_<name>(), and one line here.
-#define SWIFTLET_DEPTH_STEPS(X)                                                                   \
-  X(distortion, "straightens depths that a bent stereo pair bends; see `swiftlet calibrate`")     \
-  X(range_gate, "drops readings outside depth.min_range_m .. depth.max_range_m")                  \
-  X(lone_pixels, "drops readings that too few of their neighbours bear out: edges, mismatches")   \
-  X(smooth, "replaces readings by the mean of their neighbours within noise")                     \
-  X(to_centres, "moves readings half a cell back: cells whose centre is behind one are occupied") \
+#define SWIFTLET_DEPTH_STEPS(X)                                                                 \
+  X(distortion, "straightens depths that a bent stereo pair bends; see `swiftlet calibrate`")   \
+  X(range_gate, "drops readings outside depth.min_range_m .. depth.max_range_m")                \
+  X(lone_pixels, "drops readings that too few of their neighbours bear out: edges, mismatches") \
+  X(smooth, "replaces readings by the mean of their neighbours within noise")                   \
   X(near_downsample, "keeps the nearest valid pixel of every n x n, n = depth.downsample")
 
 namespace swiftlet {

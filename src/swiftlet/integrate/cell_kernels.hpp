@@ -22,10 +22,13 @@ struct FrameInView {
   float u_offset, v_offset;  ///< principal point + 0.5: floor() of a place is its pixel
   float width, height;
   float voxel_m;
-  float slice_inset_m;  ///< from the nearest point of a cell's cube to the nearest of its slice
+  bool has_chords;  ///< ChordModel, not InverseSensorModel
+  /// Cells whose cubes lie farther than a reading's depth + reach_sigma deviations + hidden_m are
+  /// hidden by it, those nearer than its depth - kInFrontSigma deviations - passed_m passed.
+  float hidden_m, passed_m, reach_sigma;
   float unit_m, sigma_per_z2;
   float per_sigma;           ///< 1 / sigma_per_z2
-  const float* model;        ///< EvidenceTable
+  const float* model;        ///< EvidenceTable; not with chords
   float steps_per_log_odds;  ///< FixedSteps
   float free_log_odds;
 };

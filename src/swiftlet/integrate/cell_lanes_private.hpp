@@ -42,13 +42,14 @@ HWY_INLINE CellLanes cells_at(const FrameInView& frame, const CellCube& cube, Fl
   return cells;
 }
 
-/// Log-odds as evidence, within what saturates a cell.
+/// Log-odds as evidence, within what saturates a cell; not held.
 HWY_INLINE IntLanes fixed_steps(const FrameInView& frame, FloatLanes log_odds) {
   constexpr Floats f;
   constexpr Ints i;
   const FloatLanes steps = hn::Mul(log_odds, hn::Set(f, frame.steps_per_log_odds));
   const FloatLanes most = hn::Set(f, static_cast<float>(kMostSteps));
-  return hn::ConvertTo(i, hn::Min(hn::Max(steps, hn::Neg(most)), most));
+  const IntLanes whole = hn::ConvertTo(i, hn::Min(hn::Max(steps, hn::Neg(most)), most));
+  return hn::And(whole, hn::Set(i, ~kIsHeld));
 }
 
 }  // namespace

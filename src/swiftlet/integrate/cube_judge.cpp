@@ -143,14 +143,13 @@ HWY_INLINE IntLanes verdicts_of(const FrameInView& frame, const PyramidTiles& ti
                                  hn::And(hn::Le(r.u1, width), hn::Le(r.v1, height)));
   const Readings readings = readings_of(frame, tiles, r);
 
-  const FloatLanes inset = hn::Set(f, frame.slice_inset_m);
-  const FloatLanes reach = depth_and_sigmas(frame, readings.farthest, EvidenceTable::kReachSigma);
+  const FloatLanes reach = depth_and_sigmas(frame, readings.farthest, frame.reach_sigma);
   // Concave in the depth of the reading, so the smallest is at an end of the range.
   const FloatLanes clear =
       hn::Min(depth_and_sigmas(frame, readings.nearest, -EvidenceTable::kInFrontSigma),
               depth_and_sigmas(frame, readings.farthest, -EvidenceTable::kInFrontSigma));
-  const auto is_hidden = hn::Gt(hn::Add(b.z_near, inset), reach);
-  const auto is_passed = hn::Lt(hn::Sub(b.z_far, inset), clear);
+  const auto is_hidden = hn::Gt(hn::Sub(b.z_near, hn::Set(f, frame.hidden_m)), reach);
+  const auto is_passed = hn::Lt(hn::Add(b.z_far, hn::Set(f, frame.passed_m)), clear);
   const auto is_far = hn::Gt(b.z_near, hn::Set(f, kNearCells * frame.voxel_m));
   const auto has_readings = hn::RebindMask(f, hn::Gt(readings.farthest, hn::Zero(i)));
   const auto has_all = hn::RebindMask(f, hn::Eq(readings.gaps, hn::Zero(i)));

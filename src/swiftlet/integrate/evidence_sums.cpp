@@ -44,9 +44,12 @@ EvidenceSums::BlockSums& EvidenceSums::find_or_touch(const BlockIndex& block) {
 std::size_t EvidenceSums::apply(std::uint64_t frame_number, RollingMap& map) {
   std::size_t cells = 0;
   for (std::size_t i = 0; i < touched_.size(); ++i) {
-    cells +=
-        add_evidence(sums_[i], rounding_seed(touched_[i], frame_number), map.writable(touched_[i]));
-    sums_[i].fill(0);
+    BlockSums& sums = sums_[i];
+    for (std::size_t k = 0; k < kBlockVoxels; ++k)
+      sums.steps[k] = (sums.steps[k] & ~kIsHeld) | (sums.ends[k] > 0 ? kIsHeld : 0);
+    cells += add_evidence(sums.steps, rounding_seed(touched_[i], frame_number),
+                          map.writable(touched_[i]));
+    sums = {};
   }
   return cells;
 }

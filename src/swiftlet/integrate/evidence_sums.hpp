@@ -18,8 +18,8 @@ namespace swiftlet {
 /// A single ray gives far less than one step of a byte, so evidence is gathered first, in fixed
 /// point: integers add up to the same sum in any order. Only blocks that rays touched have sums.
 /// Sums are steps * 2^20 in 32 bits: a frame gives a cell at most sqrt(3) whole observations (the
-/// projected area of a cube) of at most 127 steps, a ninth of the range, and one ray at 1 m some
-/// 190 units of the last place.
+/// projected area of a cube) of at most 127 steps, a ninth of the range, or by chords one of at
+/// most 500 steps, a quarter; and one ray at 1 m gives some 190 units of the last place.
 class EvidenceSums {
  public:
   /// Forgets all sums; `window` is where the next ones may fall. Allocates only while the frames
@@ -28,7 +28,11 @@ class EvidenceSums {
 
   /// REQUIRES: voxel lies in the window.
   void add(const VoxelIndex& voxel, FixedSteps fixed_steps) {
-    sums_of(block_of(voxel))[offset_in_block(voxel)] += fixed_steps;
+    sums_of(block_of(voxel)).steps[offset_in_block(voxel)] += fixed_steps;
+  }
+  /// Adds to what holds a cell (ChordModel::Evidence::ends), in any unit: its sign counts.
+  void add_ends(const VoxelIndex& voxel, std::int32_t ends) {
+    sums_of(block_of(voxel)).ends[offset_in_block(voxel)] += ends;
   }
 
   /// Adds every sum to its cell once (add_evidence()). Returns the number of cells with evidence.
@@ -38,7 +42,10 @@ class EvidenceSums {
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  using BlockSums = std::array<FixedSteps, kBlockVoxels>;
+  struct BlockSums {
+    std::array<FixedSteps, kBlockVoxels> steps{};
+    std::array<std::int32_t, kBlockVoxels> ends{};
+  };
   static constexpr std::uint32_t kUntouched = 0xffffffffU;
 
   BlockSums& sums_of(const BlockIndex& block) {

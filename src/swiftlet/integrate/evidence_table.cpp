@@ -74,7 +74,6 @@ void EvidenceTable::prepare(const StereoSensor& sensor, float voxel_m, float far
   const Key key{voxel_m, sensor.noise().sigma_m(1.0), sensor.model().options()};
   if (!(key == key_)) {
     key_ = key;
-    free_ = static_cast<float>(sensor.model().free_log_odds());
     first_row_ = kRows;
     log_odds_.resize(std::size_t{kRows} * kClasses * kColumns);
   }

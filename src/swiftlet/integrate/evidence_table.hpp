@@ -29,7 +29,7 @@ class EvidenceTable {
   static constexpr float kPerDeviation = 12.0F;  ///< columns a t
   static constexpr int kColumns = 256;
   static constexpr int kMiddle = 128;  ///< the column of 0: the slice's centre is at m
-  /// L is within 1e-4 of free_log_odds() so many sigma in front of a reading.
+  /// L is within 1e-4 of the model's free_log_odds() so many sigma in front of a reading.
   static constexpr float kInFrontSigma = 5.0F;
   /// Behind z_t + so many sigma a reading says nothing.
   static constexpr auto kReachSigma = static_cast<float>(InverseSensorModel::kBandSigma);
@@ -43,8 +43,6 @@ class EvidenceTable {
 
   /// Log-odds [((depth_code >> kRowShift) * kClasses + class) * kColumns + column].
   [[nodiscard]] const float* log_odds() const { return log_odds_.data(); }
-  [[nodiscard]] float sigma_per_z2() const { return static_cast<float>(key_.sigma_per_z2); }
-  [[nodiscard]] float free_log_odds() const { return free_; }
   [[nodiscard]] std::size_t memory_bytes() const { return log_odds_.capacity() * sizeof(float); }
 
  private:
@@ -57,7 +55,6 @@ class EvidenceTable {
   void fill_row(int row, const StereoSensor& sensor);
 
   Key key_;
-  float free_ = 0.0F;
   int first_row_ = kRows;  // rows from here on, which are nearer, are filled
   std::vector<float> log_odds_;
 };

@@ -46,8 +46,10 @@ void FaceSamples::spread(int count, const Float3& p_world, float voxel_m,
       const float rank = static_cast<float>(k) + 0.5F;
       const float x = (fraction(rank / static_cast<float>(n) + shift) - 0.5F) * voxel_m;
       const float y = (fraction(rank * kGoldenRatio + shift) - 0.5F) * voxel_m;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        places_[first_[i] + at][axis] = x * a[axis] + y * b[axis];
+      FaceSample& place = places_[first_[i] + at];
+      place.along_j = x;
+      place.along_k = y;
+      for (std::size_t axis = 0; axis < 3; ++axis) place.to[axis] = x * a[axis] + y * b[axis];
     }
   }
 }

@@ -12,6 +12,13 @@
 
 namespace swiftlet {
 
+/// A point on a face of a cell, from the face's middle.
+struct FaceSample {
+  Float3 to;      ///< [m, camera axes]
+  float along_j;  ///< [m] along the next of the world's axes after the one across the face
+  float along_k;  ///< and along the one after that
+};
+
 /// Where the image of a cell is looked at: points on those of its faces that the camera sees, so
 /// many on each as its share of the image is large. From a point, an axis-aligned cube shows at
 /// most three faces.
@@ -19,8 +26,8 @@ class FaceSamples {
  public:
   static constexpr int kMost = 48;  ///< on all faces together
 
-  /// From the middle of a face across the world's axis i to its samples [m, camera axes].
-  [[nodiscard]] std::span<const Float3> on_face(std::size_t i) const {
+  /// Of the face across the world's axis i.
+  [[nodiscard]] std::span<const FaceSample> on_face(std::size_t i) const {
     return {&places_[first_[i]], first_[i + 1] - first_[i]};
   }
 
@@ -31,7 +38,7 @@ class FaceSamples {
 
  private:
   std::array<std::size_t, 4> first_{};
-  std::array<Float3, kMost + 3> places_;
+  std::array<FaceSample, kMost + 3> places_;
 };
 
 }  // namespace swiftlet

@@ -149,7 +149,6 @@ std::size_t GhostDecay::apply(const DepthView& view, const Moment& moment, Rolli
   pyramid_.build(view.depth.raw, team_);
   raw_ = &view.depth.raw;
   unit_m_ = view.depth.unit_m;
-  shift_m_ = view.depth.shift_m;
   sigma_per_z2_ = static_cast<float>(moment.sigma_per_z2);
   max_range_m_ = static_cast<float>(moment.max_range_m);
   const CubeView cubes(view, map.voxel_m());

@@ -65,7 +65,7 @@ class GhostDecay {
   std::size_t decay_block(const CubeView& view, const BlockIndex& index, std::int32_t steps,
                           RollingMap& map) const;
   [[nodiscard]] float depth_m(std::uint32_t reading) const {
-    return unit_m_ * static_cast<float>(reading) - shift_m_;
+    return unit_m_ * static_cast<float>(reading);
   }
 
   double decay_s_;
@@ -74,7 +74,7 @@ class GhostDecay {
   DepthPyramid pyramid_;
   // Of this frame.
   const Image<std::uint16_t>* raw_ = nullptr;
-  float unit_m_ = 0.0F, shift_m_ = 0.0F, sigma_per_z2_ = 0.0F, max_range_m_ = 0.0F;
+  float unit_m_ = 0.0F, sigma_per_z2_ = 0.0F, max_range_m_ = 0.0F;
 };
 
 }  // namespace swiftlet

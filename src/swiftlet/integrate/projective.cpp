@@ -20,10 +20,14 @@ using Clock = std::chrono::steady_clock;
 /// Readings of a tile that lie farther apart than this, in cells, are on two sides of an edge.
 constexpr float kMostScatter = 0.35F;
 
-FrameInView look(const CubeView& view, const EvidenceTable& table, float unit_m,
-                 float steps_per_log_odds) {
+FrameInView look(const CubeView& view, const StereoSensor& sensor, const EvidenceTable& table,
+                 float unit_m, float steps_per_log_odds) {
   const Float3& a = view.optical_axis();
   const float across_cells = std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]);
+  // From the nearest point of a cell's cube to the nearest of its slice.
+  const float inset_m = 0.5F * view.voxel_m() * (across_cells - 1.0F);
+  const bool has_chords = sensor.shape() == CellShape::kChord;
+  const auto sigma_per_z2 = static_cast<float>(sensor.noise().sigma_m(1.0));
   return {.world_axis = view.world_axis(),
           .fx = view.fx(),
           .fy = view.fy(),
@@ -32,13 +36,16 @@ FrameInView look(const CubeView& view, const EvidenceTable& table, float unit_m,
           .width = static_cast<float>(view.width()),
           .height = static_cast<float>(view.height()),
           .voxel_m = view.voxel_m(),
-          .slice_inset_m = 0.5F * view.voxel_m() * (across_cells - 1.0F),
+          .has_chords = has_chords,
+          .hidden_m = has_chords ? ChordModel::kHidingCells * view.voxel_m() : -inset_m,
+          .passed_m = has_chords ? ChordModel::kEndCells * view.voxel_m() : -inset_m,
+          .reach_sigma = has_chords ? ChordModel::kFadeSigma : EvidenceTable::kReachSigma,
           .unit_m = unit_m,
-          .sigma_per_z2 = table.sigma_per_z2(),
-          .per_sigma = 1.0F / table.sigma_per_z2(),
+          .sigma_per_z2 = sigma_per_z2,
+          .per_sigma = 1.0F / sigma_per_z2,
           .model = table.log_odds(),
           .steps_per_log_odds = steps_per_log_odds,
-          .free_log_odds = table.free_log_odds()};
+          .free_log_odds = static_cast<float>(sensor.model().free_log_odds())};
 }
 
 /// The same sum as the rays', from the cell's side (method 6): every cell in view looks up the
@@ -63,14 +70,15 @@ class ProjectiveIntegrator final : public Integrator {
     if (tally.readings == 0) return tally;
     const CubeView cubes(view, map.voxel_m());
     const float unit_m = view.depth.unit_m;
-    table_.prepare(sensor, cubes.voxel_m(), unit_m * static_cast<float>(pyramid_.farthest()));
+    if (sensor.shape() == CellShape::kSlice)
+      table_.prepare(sensor, cubes.voxel_m(), unit_m * static_cast<float>(pyramid_.farthest()));
     summaries_.build(view.depth.raw,
                      {.unit_m = unit_m,
-                      .sigma_per_z2 = table_.sigma_per_z2(),
+                      .sigma_per_z2 = static_cast<float>(sensor.noise().sigma_m(1.0)),
                       .most_scatter_m = kMostScatter * cubes.voxel_m(),
                       .frame_number = view.frame_number},
                      team_);
-    const FrameInView in_view = look(cubes, table_, unit_m, steps_per_log_odds_);
+    const FrameInView in_view = look(cubes, sensor, table_, unit_m, steps_per_log_odds_);
     const FrameEvidence frame(cubes, pyramid_, summaries_, in_view, view.frame_number);
 
     cubes_.find(map.window(), cubes, frame);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "swiftlet/integrate/evidence_sums.hpp"
@@ -46,6 +48,10 @@ class RayIntegrator final : public Integrator {
   }
 
  private:
+  /// Depths [m] at which a ray enters and leaves a cell.
+  struct Chord {
+    double z_in_m, z_out_m;
+  };
   /// The geometry of one view, in units of cells.
   struct Rays {
     Rays(const DepthView& view, double voxel)
@@ -64,6 +70,20 @@ class RayIntegrator final : public Integrator {
       return optical_axis.dot(Eigen::Vector3d(c.x + 0.5, c.y + 0.5, c.z + 0.5) - origin) * voxel_m;
     }
 
+    /// Where a ray crosses a cell; nowhere if it only touches it, as drawn lines do.
+    [[nodiscard]] Chord chord(const Eigen::Vector3d& direction, const VoxelIndex& c) const {
+      Chord chord{0.0, std::numeric_limits<double>::infinity()};
+      const Eigen::Vector3d least = Eigen::Vector3d(c.x, c.y, c.z) - origin;
+      for (int i = 0; i < 3; ++i) {
+        if (direction[i] == 0.0) continue;
+        const double a_m = least[i] / direction[i], b_m = (least[i] + 1.0) / direction[i];
+        chord.z_in_m = std::max(chord.z_in_m, std::min(a_m, b_m));
+        chord.z_out_m = std::min(chord.z_out_m, std::max(a_m, b_m));
+      }
+      chord.z_out_m = std::max(chord.z_in_m, chord.z_out_m);
+      return chord;
+    }
+
     const PinholeIntrinsics& intrinsics;
     Eigen::Matrix3d R_world_camera;
     Eigen::Vector3d origin;
@@ -74,6 +94,10 @@ class RayIntegrator final : public Integrator {
   void add_reading(const Rays& rays, const Eigen::Vector3d& direction, double z_m,
                    const StereoSensor& sensor, const VoxelBox& box) {
     const double sigma_m = sensor.noise().sigma_m(z_m);
+    if (sensor.shape() == CellShape::kChord) {
+      add_chords(rays, direction, {z_m, sigma_m}, sensor, box);
+      return;
+    }
     const double z_end_m = z_m + InverseSensorModel::kBandSigma * sigma_m;
     const std::size_t n = trace_({rays.origin, rays.origin + z_end_m * direction}, box, cells_);
     for (std::size_t i = 0; i < n; ++i) {
@@ -83,6 +107,31 @@ class RayIntegrator final : public Integrator {
       if (logodds == 0.0) continue;
       const double fixed = sensor.weight(z_cell_m) * logodds * fixed_per_logodds_;
       sums_.add(cells_[i], static_cast<std::int32_t>(std::lrint(fixed)));
+    }
+  }
+
+  struct Reading {
+    double z_m, sigma_m;
+  };
+  /// With sharp fusion: each cell on the way gets DW * L * its chord.
+  void add_chords(const Rays& rays, const Eigen::Vector3d& direction, const Reading& reading,
+                  const StereoSensor& sensor, const VoxelBox& box) {
+    constexpr double kEndUnit = 1 << 20;
+    const double z_end_m = reading.z_m + double{ChordModel::kFadeSigma} * reading.sigma_m +
+                           double{ChordModel::kHidingCells} * rays.voxel_m;
+    const std::size_t n = trace_({rays.origin, rays.origin + z_end_m * direction}, box, cells_);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double z_cell_m = rays.depth_of(cells_[i]);
+      if (z_cell_m <= 0.0) continue;
+      const Chord chord = rays.chord(direction, cells_[i]);
+      const auto said =
+          sensor.chord_model().of(chord.z_in_m, chord.z_out_m, reading.z_m, reading.sigma_m);
+      const double length_cells = (chord.z_out_m - chord.z_in_m) / rays.voxel_m;
+      const double weight = sensor.weight(z_cell_m);
+      const double fixed = weight * length_cells * said.log_odds * fixed_per_logodds_;
+      sums_.add(cells_[i], static_cast<FixedSteps>(std::lrint(fixed)));
+      sums_.add_ends(cells_[i],
+                     static_cast<std::int32_t>(std::lrint(weight * said.ends * kEndUnit)));
     }
   }
 

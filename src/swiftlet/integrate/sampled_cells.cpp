@@ -11,6 +11,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include "swiftlet/integrate/chord_evidence_private.hpp"
 #include "swiftlet/integrate/tile_evidence_private.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,32 +27,38 @@ constexpr std::size_t kFew = 4;
 constexpr float kFlat = 0.015F;
 
 /// One face of each of several cells, and what the samples on it say so far.
+template <class What>
 struct Face {
-  FloatLanes middle[3], z_cell;
-  FloatLanes sum, least, most;
+  FloatLanes middle[3];
+  typename What::OfFace cell;
+  FloatLanes sum, least, most, ends;
 
   HWY_INLINE Face() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
-  HWY_INLINE Face(const FrameInView& frame, const CellLanes& cells, std::size_t axis) {
+  HWY_INLINE Face(const FrameInView& frame, const CellLanes& cells, std::size_t axis)
+      : cell(frame, cells, axis) {
     constexpr Floats f;
     const FloatLanes to_face = hn::CopySign(hn::Set(f, 0.5F * frame.voxel_m), cells.world[axis]);
     for (int i = 0; i < 3; ++i) {
       middle[i] = hn::Sub(cells.camera[i], hn::Mul(to_face, hn::Set(f, frame.world_axis[axis][i])));
     }
-    z_cell = cells.camera[2];
-    sum = hn::Zero(f);
+    sum = ends = hn::Zero(f);
     least = hn::Set(f, 1e9F);
     most = hn::Neg(least);
   }
 
-  template <class What, bool IsInside>
-  HWY_INLINE void add(const FrameInView& frame, const CellLook& look, const Float3& to) {
-    const Sample s = sample_at<IsInside>(frame, look.tiles, middle, to);
+  template <bool IsInside>
+  HWY_INLINE void add(const FrameInView& frame, const CellLook& look, const FaceSample& place) {
+    const Sample s = sample_at<IsInside>(frame, look.tiles, middle, place.to);
     const FloatLanes rays = hn::Mul(s.per_z, hn::Mul(s.per_z, s.per_z));
-    FloatLanes log_odds = What::log_odds(frame, look.tiles, s, z_cell);
-    if constexpr (!IsInside) log_odds = hn::IfThenElseZero(s.is_inside, log_odds);
-    sum = hn::Add(sum, hn::Mul(rays, log_odds));
-    least = hn::Min(least, log_odds);
-    most = hn::Max(most, log_odds);
+    Said said = What::says(frame, look.tiles, s, cell, place);
+    if constexpr (!IsInside) {
+      said.log_odds = hn::IfThenElseZero(s.is_inside, said.log_odds);
+      said.ends = hn::IfThenElseZero(s.is_inside, said.ends);
+    }
+    sum = hn::Add(sum, hn::Mul(rays, said.log_odds));
+    if constexpr (What::kHolds) ends = hn::Add(ends, hn::Mul(rays, said.ends));
+    least = hn::Min(least, said.log_odds);
+    most = hn::Max(most, said.log_odds);
   }
 
   [[nodiscard]] HWY_INLINE bool is_flat() const {
@@ -60,25 +67,33 @@ struct Face {
   }
 };
 
+/// What the faces of a vector of cells say together.
+struct Sums {
+  FloatLanes log_odds, ends;
+
+  HWY_INLINE Sums() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
+};
+
 /// The sum over rays as an integral over the faces that the camera sees: each is crossed by
 /// |n q| / q_z^3 rays per area, and a ray counts DW, z^2 times a constant that the area cancels.
 /// Adds one face's part to the sums of a group of cells.
 template <class What, bool IsInside>
 HWY_INLINE void add_face(const FrameInView& frame, const CellLook& look, const CellLanes* cells,
-                         std::size_t axis, FloatLanes* sums) {
+                         std::size_t axis, Sums* sums) {
   constexpr Floats f;
-  Face faces[kVectors];
-  for (std::size_t v = 0; v < kVectors; ++v) faces[v] = Face(frame, cells[v], axis);
-  const std::span<const Float3> places = look.samples.on_face(axis);
+  Face<What> faces[kVectors];
+  for (std::size_t v = 0; v < kVectors; ++v) faces[v] = Face<What>(frame, cells[v], axis);
+  const std::span<const FaceSample> places = look.samples.on_face(axis);
   std::size_t count = std::min(places.size(), kFew);
   bool is_flat = true;
-  for (Face& face : faces) {
-    for (std::size_t k = 0; k < count; ++k) face.add<What, IsInside>(frame, look, places[k]);
+  for (Face<What>& face : faces) {
+    for (std::size_t k = 0; k < count; ++k) face.template add<IsInside>(frame, look, places[k]);
     is_flat = is_flat && face.is_flat();
   }
   if (!is_flat) {
-    for (Face& face : faces) {
-      for (const Float3& to : places.subspan(count)) face.add<What, IsInside>(frame, look, to);
+    for (Face<What>& face : faces) {
+      for (const FaceSample& place : places.subspan(count))
+        face.template add<IsInside>(frame, look, place);
     }
     count = places.size();
   }
@@ -86,7 +101,9 @@ HWY_INLINE void add_face(const FrameInView& frame, const CellLook& look, const C
   for (std::size_t v = 0; v < kVectors; ++v) {
     const FloatLanes half = hn::Set(f, 0.5F * frame.voxel_m);
     const FloatLanes distance = hn::Max(hn::Zero(f), hn::Sub(hn::Abs(cells[v].world[axis]), half));
-    sums[v] = hn::Add(sums[v], hn::Mul(hn::Mul(distance, per_count), faces[v].sum));
+    const FloatLanes share = hn::Mul(distance, per_count);
+    sums[v].log_odds = hn::Add(sums[v].log_odds, hn::Mul(share, faces[v].sum));
+    if constexpr (What::kHolds) sums[v].ends = hn::Add(sums[v].ends, hn::Mul(share, faces[v].ends));
   }
 }
 
@@ -98,40 +115,56 @@ HWY_INLINE void fill(const FrameInView& frame, const CellCube& block, const Cell
   const std::size_t lanes = hn::Lanes(f);
   for (std::size_t k = 0; k < list.count; k += kGroup) {
     CellLanes cells[kVectors];
-    FloatLanes sums[kVectors];
+    Sums sums[kVectors];
     for (std::size_t v = 0; v < kVectors; ++v) {
       const std::size_t at = k + v * lanes;
       cells[v] = cells_at(frame, block, hn::LoadU(f, &list.x[at]), hn::LoadU(f, &list.y[at]),
                           hn::LoadU(f, &list.z[at]));
-      sums[v] = hn::Zero(f);
+      sums[v].log_odds = sums[v].ends = hn::Zero(f);
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
       add_face<What, IsInside>(frame, look, cells, axis, sums);
     HWY_ALIGN FixedSteps steps[kGroup];
     for (std::size_t v = 0; v < kVectors; ++v) {
       const FloatLanes z = hn::Max(hn::Zero(f), cells[v].camera[2]);
-      hn::Store(fixed_steps(frame, hn::Mul(sums[v], hn::Mul(z, z))), i, steps + v * lanes);
+      IntLanes all = fixed_steps(frame, hn::Mul(sums[v].log_odds, hn::Mul(z, z)));
+      if constexpr (What::kHolds) {
+        const auto ends = hn::RebindMask(i, hn::Gt(sums[v].ends, hn::Zero(f)));
+        const auto is_held = hn::And(ends, hn::Lt(all, hn::Zero(i)));
+        all = hn::Or(all, hn::IfThenElseZero(is_held, hn::Set(i, kIsHeld)));
+      }
+      hn::Store(all, i, steps + v * lanes);
     }
     const std::size_t here = std::min(kGroup, list.count - k);
     for (std::size_t lane = 0; lane < here; ++lane) evidence[list.offset[k + lane]] = steps[lane];
   }
 }
 
+template <class What>
+HWY_INLINE void fill(const FrameInView& frame, const CellCube& block, const CellList& cells,
+                     const CellLook& look, FixedSteps* evidence) {
+  if (look.is_inside_image) {
+    fill<What, true>(frame, block, cells, look, evidence);
+  } else {
+    fill<What, false>(frame, block, cells, look, evidence);
+  }
+}
+
 void passed_cells(const FrameInView& frame, const CellCube& block, const CellList& cells,
                   const CellLook& look, FixedSteps* evidence) {
-  if (look.is_inside_image) {
-    fill<PassedBy, true>(frame, block, cells, look, evidence);
+  if (frame.has_chords) {
+    fill<PassedChord>(frame, block, cells, look, evidence);
   } else {
-    fill<PassedBy, false>(frame, block, cells, look, evidence);
+    fill<PassedSlice>(frame, block, cells, look, evidence);
   }
 }
 
 void sampled_cells(const FrameInView& frame, const CellCube& block, const CellList& cells,
                    const CellLook& look, FixedSteps* evidence) {
-  if (look.is_inside_image) {
-    fill<ModelOf, true>(frame, block, cells, look, evidence);
+  if (frame.has_chords) {
+    fill<ChordEvidence>(frame, block, cells, look, evidence);
   } else {
-    fill<ModelOf, false>(frame, block, cells, look, evidence);
+    fill<SliceEvidence>(frame, block, cells, look, evidence);
   }
 }
 

@@ -4,53 +4,28 @@
 #include "swiftlet/integrate/thin_hits.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstring>
 
 namespace swiftlet {
 namespace {
 
-constexpr std::size_t kDepths = 65536;
 /// The level of the pyramid whose tiles are asked before their pixels.
 constexpr int kLevel = 1;
 constexpr int kTile = DepthPyramid::kTile << kLevel;
 
 /// Something farther on one side at least, nothing near on the other: beside a near object a stereo
-/// camera is blind on one side.
-bool rises_above(int a, int b, int far) {
-  return (a == 0 || a > far) && (b == 0 || b > far) && a + b != 0;
-}
-
-/// 0, no reading, outside of the image.
-int reading_at(const Image<std::uint16_t>& raw, int u, int v) {
-  const bool is_inside = u >= 0 && v >= 0 && u < raw.width() && v < raw.height();
-  return is_inside ? raw.at(u, v) : 0;
-}
-
-bool is_on_ridge(const Image<std::uint16_t>& raw, int u, int v, const ThinHits::Limits& limits) {
-  const int reach = limits.reach_px, far = limits.far;
-  return rises_above(reading_at(raw, u - reach, v), reading_at(raw, u + reach, v), far) ||
-         rises_above(reading_at(raw, u, v - reach), reading_at(raw, u, v + reach), far);
+/// camera is blind on one side. No branches: compilers do it for many pixels at once.
+bool rises_above(int a, int b, float far) {
+  const bool is_open_a = (a == 0) | (static_cast<float>(a) > far);
+  const bool is_open_b = (b == 0) | (static_cast<float>(b) > far);
+  return is_open_a & is_open_b & ((a | b) != 0);
 }
 
 }  // namespace
 
-ThinHits::ThinHits() : limits_(kDepths), slots_(kSlots) { touched_.reserve(kMostCells); }
-
-void ThinHits::look_up_limits(const DepthView& view, double voxel_m) {
-  const ConditionedDepth& depth = view.depth;
-  const double unit_m = depth.unit_m;
-  // Half a cell in pixels times device units; 1.5 cells; six deviations over the square of depth.
-  const std::array wanted{0.5 * voxel_m * view.intrinsics.fx() / unit_m / depth.ratio,
-                          1.5 * voxel_m / unit_m,
-                          6.0 * double{depth.noise_per_m} * double{depth.noise_left} * unit_m};
-  if (wanted == limits_of_) return;
-  limits_of_ = wanted;
-  for (std::size_t i = 1; i < kDepths; ++i) {
-    const auto z = static_cast<double>(i);
-    const double reach = std::clamp(std::floor(wanted[0] / z) + 1.0, 2.0, 64.0);
-    const double far = std::min(z + std::max(wanted[1], wanted[2] * z * z), 65535.0);
-    limits_[i] = {static_cast<std::uint16_t>(reach), static_cast<std::uint16_t>(far)};
-  }
+ThinHits::ThinHits() : image_(static_cast<int>(kMostReach_px)), slots_(kSlots) {
+  touched_.reserve(kMostCells);
 }
 
 void ThinHits::add(const VoxelIndex& cell, const RollingMap& map) {
@@ -71,11 +46,12 @@ bool ThinHits::may_have_ridge(const PyramidTiles& tiles, int tile_u, int tile_v)
   const int width = tiles.width[kLevel];
   const int height = (tiles.first[kLevel + 1] - tiles.first[kLevel]) / width;
   const auto word = [&](int u, int v) { return static_cast<std::uint32_t>(words[v * width + u]); };
-  if (word(tile_u, tile_v) >> 16U == 0) return false;
+  if (word(tile_u, tile_v) >> 16U == 0) return false;  // no reading
   // The nearest reading looks farthest to the side, and needs the least behind it.
-  const Limits& limits = limits_[word(tile_u, tile_v) & 0xfffeU];
-  const int reach = (limits.reach_px + kTile - 1) / kTile;
-  const auto is_behind = [&](int u, int v) { return word(u, v) >> 16U > limits.far; };
+  const auto nearest = static_cast<int>(word(tile_u, tile_v) & 0xfffeU);
+  const int reach = (limits_.reach_px(nearest) + kTile - 1) / kTile;
+  const float far = limits_.far_behind(static_cast<float>(nearest));
+  const auto is_behind = [&](int u, int v) { return static_cast<float>(word(u, v) >> 16U) > far; };
   for (int u = std::max(0, tile_u - reach); u <= std::min(width - 1, tile_u + reach); ++u) {
     if (is_behind(u, tile_v)) return true;
   }
@@ -88,34 +64,58 @@ bool ThinHits::may_have_ridge(const PyramidTiles& tiles, int tile_u, int tile_v)
 void ThinHits::collect(const DepthView& view, const RollingMap& map) {
   ++frame_;
   touched_.clear();
-  look_up_limits(view, map.voxel_m());
-  const Image<std::uint16_t>& raw = view.depth.raw;
-  pyramid_.build(raw, team_);
+  const ConditionedDepth& depth = view.depth;
+  const float unit_m = depth.unit_m, voxel_m = static_cast<float>(map.voxel_m());
+  const auto fx = static_cast<float>(view.intrinsics.fx()) / static_cast<float>(depth.ratio);
+  limits_ = {.half_cell_px = 0.5F * voxel_m * fx / unit_m,
+             .least_behind = kBehindCells * voxel_m / unit_m,
+             .behind_per_square = kBehindSigma * depth.noise_per_m * depth.noise_left * unit_m};
+  pyramid_.build(depth.raw, team_);
+  image_.take(depth.raw);
   const PyramidTiles tiles = pyramid_.tiles();
-  const bool has_tiles = tiles.levels > kLevel + 1;
-  for (int v = 0; v * kTile < raw.height(); ++v) {
-    for (int u = 0; u * kTile < raw.width(); ++u) {
-      if (!has_tiles || may_have_ridge(tiles, u, v)) collect_tile(view, u, v, map);
+  if (tiles.levels <= kLevel + 1) return;  // an image of a few pixels
+  for (int v = 0; v * kTile < depth.raw.height(); ++v) {
+    for (int u = 0; u * kTile < depth.raw.width(); ++u) {
+      if (may_have_ridge(tiles, u, v)) collect_tile(view, tiles, u, v, map);
     }
   }
 }
 
-void ThinHits::collect_tile(const DepthView& view, int tile_u, int tile_v, const RollingMap& map) {
-  const ConditionedDepth& depth = view.depth;
-  const int u_end = std::min((tile_u + 1) * kTile, depth.raw.width());
-  const int v_end = std::min((tile_v + 1) * kTile, depth.raw.height());
-  for (int v = tile_v * kTile; v < v_end; ++v) {
-    for (int u = tile_u * kTile; u < u_end; ++u) {
-      const std::uint16_t z = depth.raw.at(u, v);
-      if (z == 0 || !is_on_ridge(depth.raw, u, v, limits_[z])) continue;
-      const PixelOrigin pixel = depth.origin_of(u, v);
-      const double z_m = double{depth.unit_m} * z - double{depth.shift_m};
-      const Eigen::Vector3d p_world =
-          view.T_world_camera * view.intrinsics.back_project(pixel.u, pixel.v, z_m);
-      const VoxelIndex cell = voxel_containing(p_world, map.voxel_m());
-      if (map.window().contains(block_of(cell))) add(cell, map);
+void ThinHits::collect_tile(const DepthView& view, const PyramidTiles& tiles, int tile_u,
+                            int tile_v, const RollingMap& map) {
+  const int tile = tiles.first[kLevel] + tile_v * tiles.width[kLevel] + tile_u;
+  const int reach = limits_.reach_px(tiles.words[tile] & 0xfffe);
+  const int u = tile_u * kTile;
+  const Limits limits = limits_;
+  for (int v = tile_v * kTile; v < std::min((tile_v + 1) * kTile, view.depth.raw.height()); ++v) {
+    const std::uint16_t* const row = image_.row(v) + u;
+    const std::uint16_t* const above = image_.row(v - reach) + u;
+    const std::uint16_t* const below = image_.row(v + reach) + u;
+    std::array<std::uint8_t, kTile> is_on_ridge;
+    for (int i = 0; i < kTile; ++i) {
+      const int z = row[i];
+      const float far = limits.far_behind(static_cast<float>(z));
+      const bool is_ridge =
+          rises_above(row[i - reach], row[i + reach], far) | rises_above(above[i], below[i], far);
+      is_on_ridge[static_cast<std::size_t>(i)] = is_ridge & (z != 0) ? 1 : 0;
+    }
+    std::uint64_t any = 0;
+    static_assert(sizeof any == sizeof is_on_ridge);
+    std::memcpy(&any, is_on_ridge.data(), sizeof any);
+    if (any == 0) continue;
+    for (int i = 0; i < kTile; ++i) {
+      if (is_on_ridge[static_cast<std::size_t>(i)] != 0) add_reading(view, u + i, v, map);
     }
   }
+}
+
+void ThinHits::add_reading(const DepthView& view, int u, int v, const RollingMap& map) {
+  const PixelOrigin pixel = view.depth.origin_of(u, v);
+  const double z_m = double{view.depth.unit_m} * view.depth.raw.at(u, v);
+  const Eigen::Vector3d p_world =
+      view.T_world_camera * view.intrinsics.back_project(pixel.u, pixel.v, z_m);
+  const VoxelIndex cell = voxel_containing(p_world, map.voxel_m());
+  if (map.window().contains(block_of(cell))) add(cell, map);
 }
 
 std::size_t ThinHits::protect(RollingMap& map) {

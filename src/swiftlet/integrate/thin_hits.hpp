@@ -3,12 +3,14 @@
 
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "swiftlet/base/worker_team.hpp"
+#include "swiftlet/condition/neighbour_kernels.hpp"
 #include "swiftlet/integrate/depth_pyramid.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 
@@ -35,11 +37,10 @@ class ThinHits {
   /// After it: raises their cells. Returns how many.
   std::size_t protect(RollingMap& map);
 
-  /// What a reading of some depth is compared with.
-  struct Limits {
-    std::uint16_t reach_px;  ///< half a cell to the side
-    std::uint16_t far;       ///< what is clearly behind it, in device units
-  };
+  /// A reading is clearly behind another by so many cells, and so many of its deviations.
+  static constexpr float kBehindCells = 1.5F, kBehindSigma = 6.0F;
+  /// A ridge is looked for so far to the sides at least and at most.
+  static constexpr float kLeastReach_px = 2.0F, kMostReach_px = 64.0F;
 
  private:
   static constexpr std::size_t kSlots = 2 * kMostCells;  // a power of two
@@ -51,12 +52,27 @@ class ThinHits {
   };
   /// A square of pixels; false: there is no ridge in it.
   [[nodiscard]] bool may_have_ridge(const PyramidTiles& tiles, int tile_u, int tile_v) const;
-  void collect_tile(const DepthView& view, int tile_u, int tile_v, const RollingMap& map);
+  void collect_tile(const DepthView& view, const PyramidTiles& tiles, int tile_u, int tile_v,
+                    const RollingMap& map);
+  void add_reading(const DepthView& view, int u, int v, const RollingMap& map);
   void add(const VoxelIndex& cell, const RollingMap& map);
-  void look_up_limits(const DepthView& view, double voxel_m);
+  /// What the readings of one frame are compared with. Depths in device units.
+  struct Limits {
+    float half_cell_px;  // at a depth of one unit
+    float least_behind, behind_per_square;
 
-  std::vector<Limits> limits_;          // of every depth, for the numbers below
-  std::array<double, 3> limits_of_{};   // changes only with the camera
+    /// How far to the side half a cell is, for a reading.
+    [[nodiscard]] int reach_px(int z) const {
+      const float reach = std::floor(half_cell_px / static_cast<float>(z)) + 1.0F;
+      return static_cast<int>(std::clamp(reach, kLeastReach_px, kMostReach_px));
+    }
+    /// What is clearly behind a reading.
+    [[nodiscard]] float far_behind(float z) const {
+      return z + std::max(least_behind, behind_per_square * z * z);
+    }
+  };
+  Limits limits_{};
+  BorderedImage image_;
   std::vector<Slot> slots_;             // open addressing
   std::vector<std::uint32_t> touched_;  // slots of this frame, in the order of the pixels
   std::uint32_t frame_ = 0;

@@ -68,9 +68,44 @@ HWY_INLINE Sample sample_at(const FrameInView& frame, const ReadingTiles& tiles,
   return s;
 }
 
+/// What one sample says.
+struct Said {
+  FloatLanes log_odds;  ///< * kAll
+  FloatLanes ends;      ///< * kAll, ChordModel::Evidence; what does not hold cells leaves it alone
+
+  HWY_INLINE Said() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
+};
+
 HWY_INLINE FloatLanes share_of(IntLanes word) {
   const IntLanes share = hn::And(hn::ShiftRight<16>(word), hn::Set(Ints(), 0xff));
   return hn::ConvertTo(Floats(), share);
+}
+
+/// The readings of a tile, for each of several cells.
+struct Readings {
+  IntLanes code;      // of their depth
+  FloatLanes per_z;   // 1 / that [1/m]
+  FloatLanes narrow;  // sigma / deviation
+  FloatLanes share;   // * kAll
+
+  HWY_INLINE Readings() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
+};
+
+HWY_INLINE Readings readings_at(const ReadingTiles& tiles, IntLanes tile) {
+  constexpr Floats f;
+  constexpr Ints i;
+  constexpr hn::RebindToUnsigned<Ints> n;
+  const IntLanes word = hn::GatherIndex(i, tiles.words, tile);
+  Readings r;
+  r.code = hn::And(word, hn::Set(i, ReadingTiles::kCodes - 1));
+  r.per_z = hn::BitCast(f, hn::ShiftLeft<ReadingTiles::kCodeShift>(
+                               hn::Add(r.code, hn::Set(i, ReadingTiles::kFirstCode))));
+  const IntLanes agreement = hn::BitCast(i, hn::ShiftRight<24>(hn::BitCast(n, word)));
+  const FloatLanes root =
+      hn::Mul(hn::ConvertTo(f, agreement), hn::Set(f, 1.0F / ReadingTiles::kNarrowest));
+  r.narrow = hn::Mul(root, root);
+  r.share = share_of(word);
+  return r;
 }
 
 HWY_INLINE FloatLanes within_reach(FloatLanes d) {
@@ -100,28 +135,33 @@ HWY_INLINE FloatLanes reaching(FloatLanes beyond, FloatLanes inset, FloatLanes n
   return hn::IfThenElse(is_whole, one, hn::Min(hn::Max(ramp, zero), one));
 }
 
-/// Log-odds * kAll that the readings of a tile give the cells: nothing if their band ends before
-/// their rays enter.
-struct ModelOf {
-  HWY_INLINE static FloatLanes log_odds(const FrameInView& frame, const ReadingTiles& tiles,
-                                        const Sample& s, FloatLanes z_cell) {
+/// What the kernels need to know of a cell: the depth of its centre.
+struct CentreOfFace {
+  FloatLanes z;
+
+  HWY_INLINE CentreOfFace() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
+  HWY_INLINE CentreOfFace(const FrameInView&, const CellLanes& cells, std::size_t)
+      : z(cells.camera[2]) {}
+};
+
+/// What the readings of a tile say of the cells by InverseSensorModel: nothing if their band ends
+/// before their rays enter.
+struct SliceEvidence {
+  using OfFace = CentreOfFace;
+  static constexpr bool kHolds = false;
+
+  HWY_INLINE static Said says(const FrameInView& frame, const ReadingTiles& tiles, const Sample& s,
+                              const OfFace& cell, const FaceSample&) {
     constexpr Floats f;
     constexpr Ints i;
-    constexpr hn::RebindToUnsigned<Ints> n;
-    const IntLanes word = hn::GatherIndex(i, tiles.words, s.tile);
-    const IntLanes code = hn::And(word, hn::Set(i, ReadingTiles::kCodes - 1));
-    const FloatLanes per_z = hn::BitCast(f, hn::ShiftLeft<ReadingTiles::kCodeShift>(hn::Add(
-                                                code, hn::Set(i, ReadingTiles::kFirstCode))));
-    const IntLanes agreement = hn::BitCast(i, hn::ShiftRight<24>(hn::BitCast(n, word)));
-    const FloatLanes root =
-        hn::Mul(hn::ConvertTo(f, agreement), hn::Set(f, 1.0F / ReadingTiles::kNarrowest));
-    const FloatLanes narrow = hn::Mul(root, root);  // sigma / deviation
+    const Readings readings = readings_at(tiles, s.tile);
+    const FloatLanes per_z = readings.per_z, narrow = readings.narrow;
 
     // Distances behind the readings' mean m in their deviations: (z - m) / sigma with sigma = a m^2
     // is (z / m - 1) / (a m).
     const FloatLanes one = hn::Set(f, 1.0F);
     const FloatLanes scale = hn::Mul(per_z, hn::Set(f, frame.per_sigma));
-    const FloatLanes centre = hn::Mul(scale, hn::Sub(hn::Mul(z_cell, per_z), one));
+    const FloatLanes centre = hn::Mul(scale, hn::Sub(hn::Mul(cell.z, per_z), one));
     const FloatLanes half = hn::Mul(hn::Mul(scale, per_z), hn::Set(f, 0.5F * frame.voxel_m));
     const FloatLanes entry = hn::Mul(scale, hn::Sub(hn::Mul(s.z, per_z), one));
     const FloatLanes far_side = within_reach(hn::Mul(hn::Add(centre, half), narrow));
@@ -135,25 +175,32 @@ struct ModelOf {
     // Shifts and masks drop what marks whole_number()s.
     static_assert(EvidenceTable::kClasses == 8 && EvidenceTable::kColumns == 256 &&
                   EvidenceTable::kRowShift == 8);
-    const IntLanes row = hn::ShiftLeft<3>(hn::And(code, hn::Set(i, 0xff00)));
+    const IntLanes row = hn::ShiftLeft<3>(hn::And(readings.code, hn::Set(i, 0xff00)));
     const IntLanes place = hn::Or(hn::Or(row, hn::ShiftLeft<8>(of_class)),
                                   hn::And(column, hn::Set(i, EvidenceTable::kColumns - 1)));
     const FloatLanes log_odds = hn::GatherIndex(f, frame.model, place);
 
     const FloatLanes reach = hn::Set(f, EvidenceTable::kReachSigma);
     const FloatLanes inset = hn::Sub(entry, hn::Sub(centre, half));
-    return hn::Mul(hn::Mul(log_odds, share_of(word)),
-                   reaching(hn::Sub(reach, entry), inset, narrow));
+    Said said;
+    said.log_odds =
+        hn::Mul(hn::Mul(log_odds, readings.share), reaching(hn::Sub(reach, entry), inset, narrow));
+    return said;
   }
 };
 
-/// Log-odds * kAll of cells that all readings pass.
-struct PassedBy {
-  HWY_INLINE static FloatLanes log_odds(const FrameInView& frame, const ReadingTiles& tiles,
-                                        const Sample& s, FloatLanes) {
+/// What the readings of a tile say of cells that all of them pass.
+struct PassedSlice {
+  using OfFace = CentreOfFace;
+  static constexpr bool kHolds = false;
+
+  HWY_INLINE static Said says(const FrameInView& frame, const ReadingTiles& tiles, const Sample& s,
+                              const OfFace&, const FaceSample&) {
     constexpr Floats f;
     const FloatLanes share = share_of(hn::GatherIndex(Ints(), tiles.words, s.tile));
-    return hn::Mul(share, hn::Set(f, frame.free_log_odds));
+    Said said;
+    said.log_odds = hn::Mul(share, hn::Set(f, frame.free_log_odds));
+    return said;
   }
 };
 

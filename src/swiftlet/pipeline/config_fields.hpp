@@ -102,7 +102,7 @@ void integrate(Options& o, Visit& visit) {
   visit(
       ConfigField{"integrate.fusion",
                   "thesis: the thesis's rule; guarded: the same, and thin things are kept; sharp: "
-                  "noise is averaged and edges are dropped first, too"},
+                  "the most exact map, readings weighted by their precision"},
       o.fusion);
   visit(ConfigField{"integrate.ray_method", "how rays are traced (see `swiftlet list rays`)"},
         o.ray_method);

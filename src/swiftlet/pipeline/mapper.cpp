@@ -62,7 +62,7 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   if (frame.baseline_m > 0.0) instrument.baseline_m = frame.baseline_m;
   const StereoNoise noise{frame.intrinsics.fx(), instrument.baseline_m, instrument.subpixel_px};
   const ConditionedDepth& depth =
-      conditioner_.clean(frame.depth, frame.intrinsics, {noise.sigma_m(1.0), 0.5 * map_.voxel_m()});
+      conditioner_.clean(frame.depth, frame.intrinsics, noise.sigma_m(1.0));
   timer.finish(Stage::kCondition);
   if (!has_readings(depth)) {
     update.verdict = FrameVerdict::kNoReadings;
@@ -71,12 +71,9 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   update.shift = map_.recentre(frame.T_world_camera.translation(), archive_);
   timer.finish(Stage::kRecentre);
   instrument.subpixel_px *= double{depth.noise_left};
-  if (config_.integrate.fusion == kSharpFusion) {
-    // With the noise averaged away, k need not carry far walls, and half a cell keeps them thin.
-    double& k_m = instrument.model.importance_m;
-    k_m = std::min(k_m, 0.5 * map_.voxel_m());
-  }
-  const StereoSensor sensor(frame.intrinsics, instrument, map_.voxel_m(), depth.ratio);
+  const auto shape =
+      config_.integrate.fusion == kSharpFusion ? CellShape::kChord : CellShape::kSlice;
+  const StereoSensor sensor(frame.intrinsics, instrument, map_.voxel_m(), depth.ratio, shape);
   const DepthView view{depth, frame.intrinsics, frame.T_world_camera, frame_count_};
   if (thin_) thin_->collect(view, map_);
   update.tally = integrator_->integrate(view, sensor, map_);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/sensor/chord_model.hpp"
+
+#include <algorithm>
+
+namespace swiftlet {
+
+ChordModel::Evidence ChordModel::of(double z_in_m, double z_out_m, double z_m,
+                                    double sigma_m) const {
+  const double before_m = z_in_m - double{kHidingCells} * voxel_m_ - z_m;
+  const double left = std::clamp(double{kFadeSigma} - before_m / sigma_m, 0.0, 1.0);
+  if (left == 0.0) return {};
+  const double middle_m = 0.5 * (z_in_m + z_out_m);
+  const double ratio = double{kIndependence} * voxel_m_ * (middle_m - z_m) / (sigma_m * sigma_m);
+  const double log_odds = std::clamp(ratio, free_log_odds_, double{kMostLogOdds});
+  const bool passes = z_m > z_out_m + double{kEndCells} * voxel_m_;
+  return {log_odds > 0.0 ? left * log_odds : log_odds,
+          passes ? -double{kLeastEnds} : 1.0 - double{kLeastEnds}};
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+namespace swiftlet {
+
+/// What one depth reading says about a cell that its ray crosses, for sharp fusion (method 4).
+///
+/// The ray enters the cell at depth z_in and leaves it at z_out. A reading before the middle of
+/// that chord says that most of it lies in matter, one behind it that most of it is empty. How
+/// loudly, is the log of a likelihood ratio: of a surface half a cell before the middle to one half
+/// a cell behind it, c (z_mid - z) / sigma^2. So the sum over readings asks on which side of the
+/// middle their mean lies, weighted by precision: many blurred readings do not outvote a sharp one.
+/// A chord counts by its length; all rays through a cell together give it one observation.
+///
+/// Two things are not the ratio's. A reading well before the cell says nothing: the cell is hidden.
+/// And a cell in which rays end, be it behind its middle, holds some matter: it may become unknown,
+/// but not free.
+class ChordModel {
+ public:
+  /// The noise of neighbouring readings is not independent: the ratio counts for less.
+  static constexpr float kIndependence = 0.7F;
+  /// A reading so many cells before the cell, and kFadeSigma before that, hides it.
+  static constexpr float kHidingCells = 0.65F, kFadeSigma = 1.0F;
+  /// No reading says more: a twentieth of a cell's rays that hit outweighs the others.
+  static constexpr float kMostLogOdds = 20.0F;
+  /// A reading up to so many cells behind a cell may have ended in it: poses are off by some
+  /// centimetres.
+  static constexpr float kEndCells = 0.15F;
+  /// Of the rays that reach a cell, the share that must end in it so that it is not called free.
+  static constexpr float kLeastEnds = 0.2F;
+
+  /// `free_log_odds` (negative) is the least that a reading says, that of one far behind the cell.
+  ChordModel(double voxel_m, double free_log_odds)
+      : voxel_m_(voxel_m), free_log_odds_(free_log_odds) {}
+
+  struct Evidence {
+    double log_odds = 0.0;  ///< for a chord of a cell's length
+    /// 1 - kLeastEnds for a ray that ends in the cell, -kLeastEnds for one that passes it, 0 for
+    /// one that does not reach it. If the rays of a frame add up to more than 0, the cell is held:
+    /// the frame does not call it free.
+    double ends = 0.0;
+  };
+  /// Of a reading at depth z_m with deviation sigma_m [m]. REQUIRES: z_in_m <= z_out_m, sigma > 0.
+  [[nodiscard]] Evidence of(double z_in_m, double z_out_m, double z_m, double sigma_m) const;
+
+ private:
+  double voxel_m_;
+  double free_log_odds_;
+};
+
+}  // namespace swiftlet
