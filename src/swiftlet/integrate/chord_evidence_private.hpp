@@ -26,13 +26,12 @@ struct ChordsOfFace {
   FloatLanes per_far_j[2], per_far_k[2];  // 1 / the places of the other planes: lower, upper
 
   HWY_INLINE ChordsOfFace() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
-  HWY_INLINE ChordsOfFace(const FrameInView& frame, const CellLanes& cells, std::size_t axis) {
+  HWY_INLINE ChordsOfFace(const FrameInView& frame, const CellLanes& cells, std::size_t axis)
+      : world_j(cells.world[(axis + 1) % 3]), world_k(cells.world[(axis + 2) % 3]) {
     constexpr Floats f;
     const FloatLanes half = hn::Set(f, 0.5F * frame.voxel_m), one = hn::Set(f, 1.0F);
     const FloatLanes across = hn::Abs(cells.world[axis]);
     opposite_share = hn::Div(hn::Sub(across, half), hn::Add(across, half));
-    world_j = cells.world[(axis + 1) % 3];
-    world_k = cells.world[(axis + 2) % 3];
     // A plane that rays meet lies ahead; one that lies behind is never asked for.
     const FloatLanes least = hn::Set(f, 1e-6F);
     const auto lower = [&](FloatLanes w) {

@@ -14,12 +14,12 @@ namespace {
 constexpr int kLevel = 1;
 constexpr int kTile = DepthPyramid::kTile << kLevel;
 
-/// Something farther on one side at least, nothing near on the other: beside a near object a stereo
-/// camera is blind on one side. No branches: compilers do it for many pixels at once.
-bool rises_above(int a, int b, float far) {
-  const bool is_open_a = (a == 0) | (static_cast<float>(a) > far);
-  const bool is_open_b = (b == 0) | (static_cast<float>(b) > far);
-  return is_open_a & is_open_b & ((a | b) != 0);
+/// 1: something farther on one side at least, nothing near on the other; beside a near object a
+/// stereo camera is blind on one side. Numbers and no branches, so that compilers do it for many
+/// pixels at once.
+int rises_above(int a, int b, float far) {
+  const auto is_open = [far](int z) { return int{z == 0} | int{static_cast<float>(z) > far}; };
+  return is_open(a) & is_open(b) & int{(a | b) != 0};
 }
 
 }  // namespace
@@ -95,9 +95,9 @@ void ThinHits::collect_tile(const DepthView& view, const PyramidTiles& tiles, in
     for (int i = 0; i < kTile; ++i) {
       const int z = row[i];
       const float far = limits.far_behind(static_cast<float>(z));
-      const bool is_ridge =
+      const int is_ridge =
           rises_above(row[i - reach], row[i + reach], far) | rises_above(above[i], below[i], far);
-      is_on_ridge[static_cast<std::size_t>(i)] = is_ridge & (z != 0) ? 1 : 0;
+      is_on_ridge[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(is_ridge & int{z != 0});
     }
     std::uint64_t any = 0;
     static_assert(sizeof any == sizeof is_on_ridge);
