@@ -145,7 +145,8 @@ TEST_F(Bench, wrong_usage_is_exit_code_2_and_told_before_any_frame_is_read) {
   const std::vector<std::vector<std::string>> wrong{
       {"--frames", "0"},     {"--frames", "many"}, {"--warm-up", "-1"}, {"--voxel", "0"},
       {"--voxel", "0.2,x"},  {"--voxel", "nan"},   {"--voxel", "20"},   {"--threads", "0"},
-      {"--threads", "1,-2"}, {"--range", "0"},     {"--range", "nan"},  {"--magic"}};
+      {"--threads", "1,-2"}, {"--range", "0"},     {"--range", "nan"},  {"--magic"},
+      {"--fusion", "blunt"}};
   for (std::vector<std::string> words : wrong) {
     words.insert(words.begin(), "7scenes:rec");
     const Ended ended = bench(words);

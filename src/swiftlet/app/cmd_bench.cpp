@@ -20,6 +20,7 @@ struct BenchOptions {
   WorkloadOptions workload;
   std::vector<double> voxels_m{0.2, 0.1, 0.05};
   std::vector<int> threads{1, 2};
+  std::string fusion{kThesisFusion};
   double range_m = 0.0;  ///< 0: as the kind of source demands
   bool with_tables = false;
   bool as_json = false;
@@ -30,12 +31,13 @@ constexpr double kThesisCell_m = 0.2;
 constexpr int kThesisDownsample = 8;
 
 /// What the measurements share; every parameter that counts is named, whatever the defaults are.
-MapperConfig base_config(double max_range_m, double baseline_m) {
+MapperConfig base_config(const BenchOptions& options, double max_range_m, double baseline_m) {
   MapperConfig config;
   config.depth.max_range_m = max_range_m;
   config.depth.downsample = 1;
   config.sensor.baseline_m = baseline_m;
   config.integrate.ray_method = "voxel_traversal";
+  config.integrate.fusion = options.fusion;
   return config;
 }
 
@@ -43,7 +45,7 @@ MapperConfig base_config(double max_range_m, double baseline_m) {
 Faults faults_of(const BenchOptions& options) {
   for (const std::string& address : options.sources) {
     MapperConfig config =
-        base_config(range_of(address, options.workload), SensorOptions{}.baseline_m);
+        base_config(options, range_of(address, options.workload), SensorOptions{}.baseline_m);
     for (const double voxel_m : options.voxels_m) {
       config.map.voxel_m = voxel_m;
       if (auto faults = config.faults(); !faults.empty()) return faults;
@@ -74,7 +76,7 @@ class Bench {
     add_octomap(runners, config);
     tell(fmt::format("{}: cells of {} m", workload_.name, voxel_m));
     race(workload_, runners);
-    return rows_of(workload_, voxel_m, runners);
+    return rows_of(workload_, voxel_m, runners, fusion_note());
   }
 
   Expected<std::vector<BenchRow>> at_thesis_setting() const {
@@ -88,7 +90,8 @@ class Bench {
     }
     tell(fmt::format("{}: the thesis's setting", workload_.name));
     race(workload_, runners);
-    return rows_of(workload_, kThesisCell_m, runners, fmt::format(", n = {}", kThesisDownsample));
+    return rows_of(workload_, kThesisCell_m, runners,
+                   fmt::format(", n = {}{}", kThesisDownsample, fusion_note()));
   }
 
   Expected<ThesisTables> thesis_tables() const {
@@ -100,8 +103,13 @@ class Bench {
   static void tell(const std::string& text) { std::fputs((text + "\n").c_str(), stderr); }
 
  private:
+  /// For the name of the workload, where the fusion is not the usual one.
+  [[nodiscard]] std::string fusion_note() const {
+    return options_.fusion == kThesisFusion ? "" : ", " + options_.fusion;
+  }
+
   [[nodiscard]] MapperConfig base() const {
-    return base_config(workload_.max_range_m, workload_.baseline_m);
+    return base_config(options_, workload_.max_range_m, workload_.baseline_m);
   }
 
   static Status add(std::vector<Runner>& runners, const char* name, MapperConfig config,
@@ -223,6 +231,9 @@ Action declare_bench(CLI::App& parser) {
       ->check(range(1, 64))
       ->type_name("N")
       ->default_str("1,2");
+  parser.add_option("--fusion", o->fusion, "integrate.fusion of our maps")
+      ->type_name("NAME")
+      ->capture_default_str();
   parser.add_option("--range", o->range_m, "drop readings beyond; else 10 for sim:, 5 for others")
       ->check(range(0.1, 100.0))
       ->type_name("M");
