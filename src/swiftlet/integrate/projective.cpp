@@ -72,13 +72,13 @@ class ProjectiveIntegrator final : public Integrator {
     const float unit_m = view.depth.unit_m;
     if (sensor.shape() == CellShape::kSlice)
       table_.prepare(sensor, cubes.voxel_m(), unit_m * static_cast<float>(pyramid_.farthest()));
+    const FrameInView in_view = look(cubes, sensor, table_, unit_m, steps_per_log_odds_);
     summaries_.build(view.depth.raw,
                      {.unit_m = unit_m,
-                      .sigma_per_z2 = static_cast<float>(sensor.noise().sigma_m(1.0)),
+                      .sigma_per_z2 = in_view.sigma_per_z2,
                       .most_scatter_m = kMostScatter * cubes.voxel_m(),
                       .frame_number = view.frame_number},
                      team_);
-    const FrameInView in_view = look(cubes, sensor, table_, unit_m, steps_per_log_odds_);
     const FrameEvidence frame(cubes, pyramid_, summaries_, in_view, view.frame_number);
 
     cubes_.find(map.window(), cubes, frame);

@@ -71,9 +71,9 @@ void ThinHits::collect(const DepthView& view, const RollingMap& map) {
              .least_behind = kBehindCells * voxel_m / unit_m,
              .behind_per_square = kBehindSigma * depth.noise_per_m * depth.noise_left * unit_m};
   pyramid_.build(depth.raw, team_);
-  image_.take(depth.raw);
   const PyramidTiles tiles = pyramid_.tiles();
   if (tiles.levels <= kLevel + 1) return;  // an image of a few pixels
+  image_.take(depth.raw);
   for (int v = 0; v * kTile < depth.raw.height(); ++v) {
     for (int u = 0; u * kTile < depth.raw.width(); ++u) {
       if (may_have_ridge(tiles, u, v)) collect_tile(view, tiles, u, v, map);
