@@ -50,6 +50,15 @@ TEST(Reactions, frames_that_do_not_show_the_cell_do_not_count) {
   EXPECT_THAT(r.until_free(), IsEmpty()) << "unknown is not free";
 }
 
+TEST(Reactions, what_is_not_free_in_time_counts_even_if_it_never_is) {
+  const Reactions late = watch("m" + std::string(12, '.'), std::string(12, 'o') + "f");
+  EXPECT_EQ(late.not_freed(), 1U);
+  EXPECT_EQ(late.freed(), 0U);
+  EXPECT_EQ(watch("m" + std::string(12, '.'), "o" + std::string(12, 'u')).not_freed(), 1U);
+  EXPECT_EQ(watch("m..", "oof").freed(), 1U);
+  EXPECT_EQ(watch("m..", "ooo").not_freed(), 0U) << "too short to be judged";
+}
+
 TEST(Reactions, what_was_there_long_enough_and_not_noticed_is_missed) {
   EXPECT_EQ(watch("mmm.", "ffff").missed(), 1U);
   EXPECT_EQ(watch("mm.", "fff").missed(), 0U) << "too short to be judged";

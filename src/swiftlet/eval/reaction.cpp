@@ -38,7 +38,10 @@ void Reactions::observe(State& state, MoverSight sight, Occupancy claim) {
   if (state.phase == Phase::kThere) state = {Phase::kGoing, 0};
   if (state.phase != Phase::kGoing) return;
   ++state.frames;
-  if (claim != Occupancy::kFree) return;
+  const bool is_free = claim == Occupancy::kFree;
+  not_freed_ += !is_free && state.frames == kFreedWithin ? 1 : 0;
+  if (!is_free) return;
+  freed_ += state.frames <= kFreedWithin ? 1 : 0;
   until_free_.push_back(state.frames);
   state = {};
 }

@@ -18,6 +18,7 @@ namespace swiftlet::eval {
 class Reactions {
  public:
   static constexpr int kJudgedAfter = 3;
+  static constexpr int kFreedWithin = 10;  ///< frames, in which what has gone should be free
 
   /// REQUIRES: what observe() is given covers the same box.
   explicit Reactions(const VoxelBox& box) : states_(box, State{}) {}
@@ -29,6 +30,10 @@ class Reactions {
   [[nodiscard]] const std::vector<int>& until_occupied() const { return until_occupied_; }
   /// Frames until free, of each cell that was occupied and that something left.
   [[nodiscard]] const std::vector<int>& until_free() const { return until_free_; }
+  /// Cells that were free within kFreedWithin frames, and those that were not, be they free later
+  /// or never.
+  [[nodiscard]] std::size_t freed() const { return freed_; }
+  [[nodiscard]] std::size_t not_freed() const { return not_freed_; }
   /// Cells that showed matter for kJudgedAfter frames or more and never became occupied.
   [[nodiscard]] std::size_t missed() const { return missed_; }
   /// Cells that are still occupied by what has gone: looked through since, or never seen again.
@@ -47,7 +52,7 @@ class Reactions {
   CellGrid<MoverSight> last_sights_;
   std::vector<int> until_occupied_;
   std::vector<int> until_free_;
-  std::size_t missed_ = 0;
+  std::size_t missed_ = 0, freed_ = 0, not_freed_ = 0;
 };
 
 }  // namespace swiftlet::eval

@@ -21,8 +21,10 @@ ScoreValue percentile(std::string name, std::vector<int> frames, double share_of
 }  // namespace
 
 /// Frames in which a cell must be seen until what has come into it is occupied, and until what has
-/// gone is free: median and 95th percentile over the cells (see Reactions).
+/// gone is free: median and 95th percentile over the cells that are free in the end, and the share
+/// of all that was not free in time (see Reactions).
 ScoreResult score_movers(const Judged& judged) {
+  static_assert(Reactions::kFreedWithin == 10);
   if (judged.reactions == nullptr) return {};
   const Reactions& r = *judged.reactions;
   const std::size_t came = r.until_occupied().size() + r.missed();
@@ -31,6 +33,8 @@ ScoreResult score_movers(const Judged& judged) {
            share("what comes and is never occupied", r.missed(), came, false),
            percentile("what has gone is free after, median", r.until_free(), 0.5),
            percentile("what has gone is free after, 95 %", r.until_free(), 0.95),
+           share("what has gone and is not free after 10 frames", r.not_freed(),
+                 r.freed() + r.not_freed(), false),
            {"ghost cells at the end", static_cast<double>(r.ghosts()), Unit::kCount, false, came}},
           {}};
 }

@@ -29,6 +29,27 @@ struct FittedWall {
   std::size_t straight = 0;  // columns within half a cell of the line
 };
 
+/// Whether something else stands before a place on a wall, or before one a cell beside it: that is
+/// what the map shows there.
+bool is_obstructed(const Truth& truth, const WallFace& face, const Eigen::Vector3d& p) {
+  const double c = truth.voxel_m();
+  const auto stands_before = [&](const Eigen::Vector3d& q) {
+    const VoxelIndex behind_face = voxel_containing(q - 0.25 * c * face.normal, c);
+    const VoxelIndex at_face = voxel_containing(q, c);
+    for (double height = 0.25; height <= 2.5; height += 0.25) {  // in cells
+      const VoxelIndex v = voxel_containing(q + height * c * face.normal, c);
+      if (v != behind_face && v != at_face && truth.holds_matter(v)) return true;
+    }
+    return false;
+  };
+  for (const double along : {-c, 0.0, c}) {
+    for (const double up : {-c, 0.0, c}) {
+      if (stands_before(p + along * face.along + up * Eigen::Vector3d::UnitZ())) return true;
+    }
+  }
+  return false;
+}
+
 /// Offset of the first occupied cell along the inward normal, within two cells of the true surface.
 std::optional<double> offset_at(const Judged& judged, const WallFace& face,
                                 const Eigen::Vector3d& p) {
@@ -36,8 +57,7 @@ std::optional<double> offset_at(const Judged& judged, const WallFace& face,
   const VoxelIndex own = voxel_containing(p - 0.25 * c * face.normal, c);
   if (!judged.claims.contains(own)) return std::nullopt;
   if (!Truth::is_seen_surface(judged.truth.cells().at(own))) return std::nullopt;
-  // Where something stands against the wall, that is what the map shows.
-  if (judged.truth.holds_matter(voxel_containing(p + c * face.normal, c))) return std::nullopt;
+  if (is_obstructed(judged.truth, face, p)) return std::nullopt;
   constexpr int kSteps = 16;
   for (int i = 0; i <= kSteps; ++i) {
     const double height_m = c * (2.0 - 4.0 * i / kSteps);
