@@ -49,6 +49,14 @@ TEST(ChordModel, says_nothing_of_what_is_hidden) {
   EXPECT_EQ(chord_model().of(3.0, 3.1, 2.0, sigma).ends, 0.0);
 }
 
+TEST(ChordModel, lets_a_reading_far_behind_speak_twice_as_loud) {
+  const double sigma = 0.02;
+  const double clear = 2.0 + double{ChordModel::kClearCells} * kCell_m +
+                       double{ChordModel::kClearSigma} * sigma;
+  EXPECT_EQ(chord_model().of(1.9, 2.0, clear - 0.001, sigma).log_odds, kFreeLogOdds);
+  EXPECT_EQ(chord_model().of(1.9, 2.0, clear + 0.001, sigma).log_odds, 2.0 * kFreeLogOdds);
+}
+
 // A wall at 2 m, and the empty cell that ends at it. One reading of a near view against a thousand
 // of a blurred one that lie, by their bias, half a cell too near.
 TEST(ChordModel, lets_a_sharp_reading_outvote_blurred_ones) {

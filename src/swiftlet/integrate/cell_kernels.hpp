@@ -24,13 +24,14 @@ struct FrameInView {
   float voxel_m;
   bool has_chords;  ///< ChordModel, not InverseSensorModel
   /// Cells whose cubes lie farther than a reading's depth + reach_sigma deviations + hidden_m are
-  /// hidden by it, those nearer than its depth - kInFrontSigma deviations - passed_m passed.
-  float hidden_m, passed_m, reach_sigma;
+  /// hidden by it, those nearer than its depth - kInFrontSigma deviations - passed_m passed, and so
+  /// clearly that they get clear_log_odds with clear_m.
+  float hidden_m, passed_m, clear_m, reach_sigma;
   float unit_m, sigma_per_z2;
   float per_sigma;           ///< 1 / sigma_per_z2
   const float* model;        ///< EvidenceTable; not with chords
   float steps_per_log_odds;  ///< FixedSteps
-  float free_log_odds;
+  float free_log_odds, clear_log_odds;
 };
 
 /// A cube of cells within a block, relative to the camera.

@@ -61,6 +61,23 @@ struct ChordsOfFace {
   }
 };
 
+/// 1 / the deviation of readings, in units of their depth.
+HWY_INLINE FloatLanes depths_per_sigma(const FrameInView& frame, const Readings& r) {
+  return hn::Mul(hn::Mul(r.per_z, hn::Set(Floats(), frame.per_sigma)), r.narrow);
+}
+
+/// The least that readings say of cells which their rays leave at z_out.
+HWY_INLINE FloatLanes least_log_odds(const FrameInView& frame, const Readings& r,
+                                     FloatLanes per_sigma, FloatLanes z_out) {
+  constexpr Floats f;
+  static_assert(ChordModel::kClearSigma <= EvidenceTable::kInFrontSigma);
+  const FloatLanes clear = hn::Add(z_out, hn::Set(f, frame.clear_m));
+  const FloatLanes behind = hn::Sub(hn::Mul(clear, r.per_z), hn::Set(f, 1.0F));
+  const auto is_clear = hn::Lt(hn::Mul(behind, per_sigma), hn::Set(f, -ChordModel::kClearSigma));
+  return hn::IfThenElse(is_clear, hn::Set(f, frame.clear_log_odds),
+                        hn::Set(f, frame.free_log_odds));
+}
+
 /// What the readings of a tile say of the cells by ChordModel.
 struct ChordEvidence {
   using OfFace = ChordsOfFace;
@@ -74,12 +91,12 @@ struct ChordEvidence {
     const FloatLanes one = hn::Set(f, 1.0F), zero = hn::Zero(f);
     // (x - z) / sigma with sigma = a z^2 is (x / z - 1) / (a z).
     const auto behind = [&](FloatLanes x) { return hn::Sub(hn::Mul(x, r.per_z), one); };
-    const FloatLanes per_sigma = hn::Mul(hn::Mul(r.per_z, hn::Set(f, frame.per_sigma)), r.narrow);
+    const FloatLanes per_sigma = depths_per_sigma(frame, r);
     const FloatLanes gain = hn::Mul(hn::Mul(hn::Mul(per_sigma, per_sigma), r.per_z),
                                     hn::Set(f, ChordModel::kIndependence * frame.voxel_m));
     const FloatLanes middle = hn::Mul(hn::Add(s.z, z_out), hn::Set(f, 0.5F));
     const FloatLanes ratio =
-        hn::Min(hn::Max(hn::Mul(gain, behind(middle)), hn::Set(f, frame.free_log_odds)),
+        hn::Min(hn::Max(hn::Mul(gain, behind(middle)), least_log_odds(frame, r, per_sigma, z_out)),
                 hn::Set(f, ChordModel::kMostLogOdds));
 
     const FloatLanes hiding = hn::Set(f, ChordModel::kHidingCells * frame.voxel_m);
@@ -109,9 +126,12 @@ struct PassedChord {
   HWY_INLINE static Said says(const FrameInView& frame, const ReadingTiles& tiles, const Sample& s,
                               const OfFace& cell, const FaceSample& place) {
     constexpr Floats f;
-    const FloatLanes chord = hn::Sub(cell.z_out(s.z, place), s.z);
-    Said said = PassedSlice::says(frame, tiles, s, {}, place);
-    said.log_odds = hn::Mul(said.log_odds, hn::Mul(chord, hn::Set(f, 1.0F / frame.voxel_m)));
+    const Readings r = readings_at(tiles, s.tile);
+    const FloatLanes z_out = cell.z_out(s.z, place);
+    const FloatLanes chord = hn::Mul(hn::Sub(z_out, s.z), hn::Set(f, 1.0F / frame.voxel_m));
+    Said said;
+    const FloatLanes least = least_log_odds(frame, r, depths_per_sigma(frame, r), z_out);
+    said.log_odds = hn::Mul(least, hn::Mul(chord, r.share));
     return said;
   }
 };

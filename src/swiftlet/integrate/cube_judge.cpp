@@ -145,17 +145,18 @@ HWY_INLINE IntLanes verdicts_of(const FrameInView& frame, const PyramidTiles& ti
 
   const FloatLanes reach = depth_and_sigmas(frame, readings.farthest, frame.reach_sigma);
   // Concave in the depth of the reading, so the smallest is at an end of the range.
-  const FloatLanes clear =
+  const FloatLanes before =
       hn::Min(depth_and_sigmas(frame, readings.nearest, -EvidenceTable::kInFrontSigma),
               depth_and_sigmas(frame, readings.farthest, -EvidenceTable::kInFrontSigma));
   const auto is_hidden = hn::Gt(hn::Sub(b.z_near, hn::Set(f, frame.hidden_m)), reach);
-  const auto is_passed = hn::Lt(hn::Add(b.z_far, hn::Set(f, frame.passed_m)), clear);
+  const auto is_passed = hn::Lt(hn::Add(b.z_far, hn::Set(f, frame.passed_m)), before);
+  const auto is_clear = hn::Lt(hn::Add(b.z_far, hn::Set(f, frame.clear_m)), before);
   const auto is_far = hn::Gt(b.z_near, hn::Set(f, kNearCells * frame.voxel_m));
   const auto has_readings = hn::RebindMask(f, hn::Gt(readings.farthest, hn::Zero(i)));
   const auto has_all = hn::RebindMask(f, hn::Eq(readings.gaps, hn::Zero(i)));
 
   const auto says_something = hn::AndNot(is_hidden, hn::And(meets_image, has_readings));
-  const auto is_whole = hn::And(hn::And(has_all, is_inside), is_far);
+  const auto is_whole = hn::And(hn::And(has_all, is_inside), hn::And(is_far, is_clear));
   const IntLanes passed =
       hn::IfThenElse(hn::RebindMask(i, is_whole), verdict(Verdict::kFree), verdict(Verdict::kSeen));
   const IntLanes seen =

@@ -58,7 +58,7 @@ void free_cells(const FrameInView& frame, const CellCube& cube, FixedSteps* evid
             frame, cube, hn::Add(lane_x, hn::Set(f, static_cast<float>(x))),
             hn::Add(lane_y, hn::Set(f, static_cast<float>(y))), hn::Set(f, static_cast<float>(z)));
         const FloatLanes log_odds =
-            hn::Mul(observations(frame, cells), hn::Set(f, frame.free_log_odds));
+            hn::Mul(observations(frame, cells), hn::Set(f, frame.clear_log_odds));
         HWY_ALIGN FixedSteps lanes[16];
         hn::Store(fixed_steps(frame, log_odds), i, lanes);
         FixedSteps* first = evidence + (cube.offset + kBlockEdge * (y + kBlockEdge * z) + x);

@@ -27,6 +27,7 @@ FrameInView look(const CubeView& view, const StereoSensor& sensor, const Evidenc
   // From the nearest point of a cell's cube to the nearest of its slice.
   const float inset_m = 0.5F * view.voxel_m() * (across_cells - 1.0F);
   const bool has_chords = sensor.shape() == CellShape::kChord;
+  const auto free_log_odds = static_cast<float>(sensor.model().free_log_odds());
   const auto sigma_per_z2 = static_cast<float>(sensor.noise().sigma_m(1.0));
   return {.world_axis = view.world_axis(),
           .fx = view.fx(),
@@ -39,13 +40,15 @@ FrameInView look(const CubeView& view, const StereoSensor& sensor, const Evidenc
           .has_chords = has_chords,
           .hidden_m = has_chords ? ChordModel::kHidingCells * view.voxel_m() : -inset_m,
           .passed_m = has_chords ? ChordModel::kEndCells * view.voxel_m() : -inset_m,
+          .clear_m = has_chords ? ChordModel::kClearCells * view.voxel_m() : -inset_m,
           .reach_sigma = has_chords ? ChordModel::kFadeSigma : EvidenceTable::kReachSigma,
           .unit_m = unit_m,
           .sigma_per_z2 = sigma_per_z2,
           .per_sigma = 1.0F / sigma_per_z2,
           .model = table.log_odds(),
           .steps_per_log_odds = steps_per_log_odds,
-          .free_log_odds = static_cast<float>(sensor.model().free_log_odds())};
+          .free_log_odds = free_log_odds,
+          .clear_log_odds = (has_chords ? ChordModel::kClearGain : 1.0F) * free_log_odds};
 }
 
 /// The same sum as the rays', from the cell's side (method 6): every cell in view looks up the

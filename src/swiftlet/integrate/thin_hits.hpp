@@ -27,7 +27,7 @@ namespace swiftlet {
 class ThinHits {
  public:
   static constexpr int kLeastHits = 3;
-  static constexpr std::int32_t kGain = 45;
+  static constexpr std::int32_t kGain = 60;
   static constexpr std::size_t kMostCells = 1U << 14;  ///< in one frame
 
   ThinHits();

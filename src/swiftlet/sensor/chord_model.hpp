@@ -14,9 +14,10 @@ namespace swiftlet {
 /// middle their mean lies, weighted by precision: many blurred readings do not outvote a sharp one.
 /// A chord counts by its length; all rays through a cell together give it one observation.
 ///
-/// Two things are not the ratio's. A reading well before the cell says nothing: the cell is hidden.
-/// And a cell in which rays end, be it behind its middle, holds some matter: it may become unknown,
-/// but not free.
+/// Three things are not the ratio's. A reading well before the cell says nothing: the cell is
+/// hidden. One far behind it speaks twice as loud, as no pose is that much off: so what has left is
+/// cleared soon. And a cell in which rays end, be it behind its middle, holds some matter: it may
+/// become unknown, but not free.
 class ChordModel {
  public:
   /// The noise of neighbouring readings is not independent: the ratio counts for less.
@@ -25,13 +26,15 @@ class ChordModel {
   static constexpr float kHidingCells = 0.65F, kFadeSigma = 1.0F;
   /// No reading says more: a twentieth of a cell's rays that hit outweighs the others.
   static constexpr float kMostLogOdds = 20.0F;
+  /// A reading so many cells, and so many of its deviations, behind a cell counts kClearGain times.
+  static constexpr float kClearCells = 3.0F, kClearSigma = 4.0F, kClearGain = 2.0F;
   /// A reading up to so many cells behind a cell may have ended in it: poses are off by some
   /// centimetres.
   static constexpr float kEndCells = 0.15F;
   /// Of the rays that reach a cell, the share that must end in it so that it is not called free.
   static constexpr float kLeastEnds = 0.2F;
 
-  /// `free_log_odds` (negative) is the least that a reading says, that of one far behind the cell.
+  /// `free_log_odds` (negative) is the least that a reading says that is not far behind the cell.
   ChordModel(double voxel_m, double free_log_odds)
       : voxel_m_(voxel_m), free_log_odds_(free_log_odds) {}
 
