@@ -60,7 +60,9 @@ void ghosts(benchmark::State& state) {
   const Frame& frame = frames().back();
   ConditionedDepth depth;
   depth.raw = frame.depth.raw;
-  const DepthView view{depth, frame.intrinsics, frame.T_world_camera, 0};
+  DepthPyramid pyramid;
+  pyramid.build(depth.raw);
+  const DepthView view{depth, pyramid, frame.intrinsics, frame.T_world_camera, 0};
   GhostDecay decay(2.0);
   Stamp now;
   for (auto _ : state) {

@@ -54,14 +54,16 @@ void integrate(benchmark::State& state, const char* name) {
   const double voxel_m = voxel_of(state);
   auto integrator = make_integrator({.integrator = name});
   auto map = RollingMap::create({.voxel_m = voxel_m});
+  DepthPyramid pyramid;
   std::size_t i = 0;
   for (auto _ : state) {
     const Frame& frame = f.frames[i % f.frames.size()];
     const ConditionedDepth& depth = f.depths[i % f.frames.size()];
     map->recentre(frame.T_world_camera.translation(), nullptr);
     const StereoSensor sensor(frame.intrinsics, {}, voxel_m, 1);
-    const auto tally =
-        (*integrator)->integrate({depth, frame.intrinsics, frame.T_world_camera, i}, sensor, *map);
+    pyramid.build(depth.raw);
+    const DepthView view{depth, pyramid, frame.intrinsics, frame.T_world_camera, i};
+    const auto tally = (*integrator)->integrate(view, sensor, *map);
     benchmark::DoNotOptimize(tally);
     ++i;
   }

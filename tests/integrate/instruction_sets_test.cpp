@@ -4,8 +4,8 @@
 // The projective integrator's promise: the same map bits on any machine and any number of threads.
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
+#include "support/every_instruction_set.hpp"
 #include "support/synthetic.hpp"
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/integrate/integrator.hpp"
@@ -20,13 +20,16 @@ std::vector<VoxelBlock> mapped(std::uint64_t seed, CellShape shape, int threads 
       RollingMap::create({.voxel_m = 0.1, .size_m = {8, 8, 8}, .trigger_m = {1e3, 1e3, 1e3}});
   map->recentre(Eigen::Vector3d::Zero(), nullptr);
   const auto integrator = *make_integrator({.integrator = "projective", .threads = threads});
-  auto conditioner = Conditioner::create(
-      {.steps = {"range_gate", "lone_pixels", "smooth", "near_downsample"}, .downsample = 1});
+  auto conditioner =
+      Conditioner::create({.steps = {"range_gate", "smooth", "near_downsample"}, .downsample = 1});
+  DepthPyramid pyramid;
   for (std::uint64_t i = 0; i < 4; ++i) {
     const Frame frame = test::random_frame(random, test::small_camera(163, 121));
     const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, 0.004);
     const StereoSensor sensor(frame.intrinsics, {}, map->voxel_m(), 1, shape);
-    integrator->integrate({depth, frame.intrinsics, frame.T_world_camera, i}, sensor, *map);
+    pyramid.build(depth.raw);
+    integrator->integrate({depth, pyramid, frame.intrinsics, frame.T_world_camera, i}, sensor,
+                          *map);
   }
   std::vector<VoxelBlock> blocks;
   map->for_each_known_block(
@@ -40,18 +43,8 @@ class ProjectiveBits : public testing::TestWithParam<CellShape> {};
 TEST_P(ProjectiveBits, are_the_same_on_every_instruction_set_of_this_machine) {
   const std::vector<VoxelBlock> widest = mapped(3, GetParam());
   ASSERT_GT(widest.size(), 50U);
-  const std::int64_t all = hwy::SupportedTargets();
-  int targets = 0;
-  for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
-    const std::int64_t target = rest & -rest;
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(target);
-    EXPECT_TRUE(mapped(3, GetParam()) == widest) << hwy::TargetName(target);
-    testing::Test::RecordProperty("target" + std::to_string(targets), hwy::TargetName(target));
-    ++targets;
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(all);
+  const int targets = test::on_every_instruction_set(
+      [&](const char* name) { EXPECT_TRUE(mapped(3, GetParam()) == widest) << name; });
   EXPECT_GE(targets, 1);
 }
 
@@ -73,14 +66,16 @@ TEST(Projective, counts_the_blocks_that_a_deadline_leaves) {
   const Frame frame = test::random_frame(random, test::small_camera());
   auto conditioner = Conditioner::create({.downsample = 1});
   const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, 0.004);
+  DepthPyramid pyramid;
+  pyramid.build(depth.raw);
+  const DepthView view{depth, pyramid, frame.intrinsics, frame.T_world_camera, 0};
   const StereoSensor sensor(frame.intrinsics, {}, 0.1, 1);
   const auto blocks_of = [&](double max_frame_ms) {
     auto map = RollingMap::create({.voxel_m = 0.1, .size_m = {8, 8, 8}});
     map->recentre(Eigen::Vector3d::Zero(), nullptr);
     const auto integrator =
         *make_integrator({.integrator = "projective", .max_frame_ms = max_frame_ms});
-    const auto tally =
-        integrator->integrate({depth, frame.intrinsics, frame.T_world_camera, 0}, sensor, *map);
+    const auto tally = integrator->integrate(view, sensor, *map);
     return std::pair(tally.blocks, tally.blocks_left);
   };
   const auto [all, none_left] = blocks_of(0.0);

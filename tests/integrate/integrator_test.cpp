@@ -50,9 +50,12 @@ IntegrationTally integrate(RollingMap& map, const Frame& frame, int ratio,
   condition.downsample = ratio;
   auto conditioner = Conditioner::create(condition);
   const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, {});
+  DepthPyramid pyramid;
+  pyramid.build(depth.raw);
   const StereoSensor sensor(frame.intrinsics, SensorOptions{}, kVoxel_m, depth.ratio);
   return (*make_integrator(options))
-      ->integrate({depth, frame.intrinsics, frame.T_world_camera, frame_number}, sensor, map);
+      ->integrate({depth, pyramid, frame.intrinsics, frame.T_world_camera, frame_number}, sensor,
+                  map);
 }
 
 // One frame from unknown: every cell must be the reference's real number, rounded up or down.

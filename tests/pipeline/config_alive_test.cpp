@@ -105,12 +105,11 @@ TEST(MapperConfig, threads_change_no_output_and_a_deadline_does) {
   EXPECT_FALSE(outcome_of(config) == before);
 }
 
-TEST(MapperConfig, sharp_fusion_adds_its_steps_behind_the_range_gate) {
+TEST(MapperConfig, sharp_fusion_smooths_behind_the_range_gate) {
   MapperConfig config;
   config.integrate.fusion = "sharp";
   EXPECT_EQ(config.conditioning().steps,
-            (std::vector<std::string>{"distortion", "range_gate", "lone_pixels", "smooth",
-                                      "near_downsample"}));
+            (std::vector<std::string>{"distortion", "range_gate", "smooth", "near_downsample"}));
   config.integrate.fusion = "blunt";
   ASSERT_EQ(config.faults().size(), 1U);
   EXPECT_EQ(config.faults().front().where, "integrate.fusion");

@@ -51,8 +51,8 @@ TEST(ChordModel, says_nothing_of_what_is_hidden) {
 
 TEST(ChordModel, lets_a_reading_far_behind_speak_twice_as_loud) {
   const double sigma = 0.02;
-  const double clear = 2.0 + double{ChordModel::kClearCells} * kCell_m +
-                       double{ChordModel::kClearSigma} * sigma;
+  const double clear =
+      2.0 + double{ChordModel::kClearCells} * kCell_m + double{ChordModel::kClearSigma} * sigma;
   EXPECT_EQ(chord_model().of(1.9, 2.0, clear - 0.001, sigma).log_odds, kFreeLogOdds);
   EXPECT_EQ(chord_model().of(1.9, 2.0, clear + 0.001, sigma).log_odds, 2.0 * kFreeLogOdds);
 }

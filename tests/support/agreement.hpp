@@ -76,7 +76,8 @@ class AgreementCheck {
   void add(const Frame& frame) {
     const ConditionedDepth& depth = conditioner_.clean(frame.depth, frame.intrinsics, 0.004);
     const StereoSensor sensor(frame.intrinsics, options_, candidate_map_.voxel_m(), 1, shape_);
-    const DepthView view{depth, frame.intrinsics, frame.T_world_camera, frames_++};
+    pyramid_.build(depth.raw);
+    const DepthView view{depth, pyramid_, frame.intrinsics, frame.T_world_camera, frames_++};
     const auto a = candidate_->integrate(view, sensor, candidate_map_);
     const auto b = reference_->integrate(view, sensor, reference_map_);
     EXPECT_EQ(a.readings, b.readings);
@@ -142,6 +143,7 @@ class AgreementCheck {
   RollingMap candidate_map_, reference_map_;
   std::unique_ptr<Integrator> candidate_, reference_;
   Conditioner conditioner_;
+  DepthPyramid pyramid_;
   SensorOptions options_;
   CellShape shape_;
   TraceRay trace_;

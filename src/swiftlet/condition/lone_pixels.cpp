@@ -14,10 +14,7 @@ class LonePixels final : public DepthStep {
  public:
   explicit LonePixels(const ConditionOptions&) {}
 
-  void apply(ConditionedDepth& depth) override {
-    constexpr int kLeast = 3;  // itself and two
-    neighbours_.keep_supported(depth, kLeast);
-  }
+  void apply(ConditionedDepth& depth) override { neighbours_.keep_supported(depth); }
 
  private:
   Neighbours neighbours_;

@@ -22,19 +22,12 @@ using Floats = hn::ScalableTag<float>;
 using Ints = hn::RebindToSigned<Floats>;
 using FloatLanes = hn::Vec<Floats>;
 using FewWords = hn::Rebind<std::uint16_t, Floats>;
-using FewSigned = hn::Rebind<std::int16_t, Floats>;
 
-/// At most so much, so that 25 differences add up to less than 2^15.
+/// At most so much, so that 25 times twice of it are less than 2^16.
 constexpr float kMostTolerance = 1300.0F;
 
 HWY_INLINE FloatLanes floats_at(const std::uint16_t* words) {
   return hn::ConvertTo(Floats(), hn::PromoteTo(Ints(), hn::LoadU(FewWords(), words)));
-}
-
-/// The sums of a row are negative as well.
-HWY_INLINE FloatLanes signed_at(const std::uint16_t* words) {
-  const auto bits = hn::BitCast(FewSigned(), hn::LoadU(FewWords(), words));
-  return hn::ConvertTo(Floats(), hn::PromoteTo(Ints(), bits));
 }
 
 HWY_INLINE void store_words(FloatLanes values, std::uint16_t* words) {
@@ -49,60 +42,74 @@ void find_tolerances(const NeighbourRow& row) {
     const FloatLanes slope =
         hn::Add(hn::Mul(depth, hn::Set(f, row.noise.per_square)), hn::Set(f, row.noise.per_depth));
     const FloatLanes noise = hn::Add(hn::Mul(depth, slope), hn::Set(f, row.noise.least));
-    // Less than the reading, so that 0 never agrees.
-    const FloatLanes most = hn::Min(hn::Set(f, kMostTolerance), hn::Sub(depth, hn::Set(f, 1.0F)));
+    // What agrees lies between 1 and 2^16 - 1, so that 0 never does.
+    const FloatLanes inside =
+        hn::Min(hn::Sub(depth, hn::Set(f, 1.0F)), hn::Sub(hn::Set(f, 65535.0F), depth));
+    const FloatLanes most = hn::Min(hn::Set(f, kMostTolerance), inside);
     const FloatLanes tolerance = hn::Max(hn::Zero(f), hn::Min(noise, most));
     store_words(hn::Floor(tolerance), row.tolerance + u);
   }
 }
 
-/// Counts the readings of a square that agree with its middle, and adds up how much deeper they
-/// are, modulo 2^16.
-template <int Reach>
-HWY_INLINE void gather(const NeighbourRow& row) {
-  constexpr Words w;
-  const WordLanes one = hn::Set(w, 1);
-  for (int u = 0; u < row.width; u += static_cast<int>(hn::Lanes(w))) {
-    const WordLanes z = hn::LoadU(w, row.image->row(row.v) + u);
-    const WordLanes tolerance = hn::LoadU(w, row.tolerance + u);
-    WordLanes count = hn::Zero(w), sum = hn::Zero(w);
+/// Of the readings of a square that agree with its middle: how many there are of the 3 x 3 and in
+/// all, and the sum of their depths from the least that agrees on.
+struct Agreement {
+  WordLanes near, all, sum;
+
+  template <int Reach>
+  HWY_INLINE static Agreement around(const NeighbourRow& row, int u, WordLanes z) {
+    constexpr Words w;
+    const WordLanes one = hn::Set(w, 1), tolerance = hn::LoadU(w, row.tolerance + u);
+    const WordLanes least = hn::Sub(z, tolerance), reach = hn::Add(tolerance, tolerance);
+    Agreement a{hn::Zero(w), hn::Zero(w), hn::Zero(w)};
     for (int dv = -Reach; dv <= Reach; ++dv) {
       const std::uint16_t* const neighbours = row.image->row(row.v + dv) + u;
       for (int du = -Reach; du <= Reach; ++du) {
-        const WordLanes a = hn::LoadU(w, neighbours + du);
-        const WordLanes apart = hn::Sub(hn::Max(a, z), hn::Min(a, z));
-        const auto differs = hn::Gt(apart, tolerance);
-        sum = hn::Add(sum, hn::IfThenZeroElse(differs, hn::Sub(a, z)));
-        count = hn::Add(count, hn::IfThenZeroElse(differs, one));
+        const WordLanes deeper = hn::Sub(hn::LoadU(w, neighbours + du), least);  // modulo 2^16
+        const auto differs = hn::Gt(deeper, reach);
+        const WordLanes count = hn::IfThenZeroElse(differs, one);
+        if (dv * dv <= 1 && du * du <= 1) a.near = hn::Add(a.near, count);
+        if constexpr (Reach == 1) continue;
+        a.all = hn::Add(a.all, count);
+        a.sum = hn::Add(a.sum, hn::IfThenZeroElse(differs, deeper));
       }
     }
-    hn::StoreU(count, w, row.count + u);
-    hn::StoreU(sum, w, row.sum + u);
+    return a;
   }
+};
+
+HWY_INLINE hn::Mask<Words> is_supported(WordLanes near) {
+  return hn::Gt(near, hn::Set(Words(), Neighbours::kLeast - 1));
 }
 
-void supported_row(const NeighbourRow& row, int least) {
-  find_tolerances(row);
-  gather<1>(row);
+void supported_row(const NeighbourRow& row) {
   constexpr Words w;
-  const WordLanes too_few = hn::Set(w, static_cast<std::uint16_t>(least - 1));
+  find_tolerances(row);
   for (int u = 0; u < row.width; u += static_cast<int>(hn::Lanes(w))) {
-    const auto is_kept = hn::Gt(hn::LoadU(w, row.count + u), too_few);
     const WordLanes z = hn::LoadU(w, row.image->row(row.v) + u);
-    hn::StoreU(hn::IfThenElseZero(is_kept, z), w, row.result + u);
+    const auto a = Agreement::around<1>(row, u, z);
+    hn::StoreU(hn::IfThenElseZero(is_supported(a.near), z), w, row.result + u);
   }
 }
 
 void averaged_row(const NeighbourRow& row) {
+  constexpr Words w;
   find_tolerances(row);
-  gather<2>(row);
+  const std::uint16_t* const z_of = row.image->row(row.v);
+  for (int u = 0; u < row.width; u += static_cast<int>(hn::Lanes(w))) {
+    const WordLanes z = hn::LoadU(w, z_of + u);
+    const auto a = Agreement::around<2>(row, u, z);
+    hn::StoreU(hn::IfThenElseZero(is_supported(a.near), a.all), w, row.count + u);
+    hn::StoreU(a.sum, w, row.sum + u);
+  }
   constexpr Floats f;
-  const std::uint16_t* const z = row.image->row(row.v);
   for (int u = 0; u < row.width; u += static_cast<int>(hn::Lanes(f))) {
     // Where there is no reading, those that have none agree, and their sum is 0.
-    const FloatLanes count = hn::Max(floats_at(row.count + u), hn::Set(f, 1.0F));
-    const FloatLanes deeper = hn::Div(signed_at(row.sum + u), count);
-    store_words(hn::Add(floats_at(z + u), deeper), row.result + u);
+    const FloatLanes count = floats_at(row.count + u);
+    const auto is_kept = hn::Gt(count, hn::Zero(f));
+    const FloatLanes least = hn::Sub(floats_at(z_of + u), floats_at(row.tolerance + u));
+    const FloatLanes mean = hn::Add(least, hn::Div(floats_at(row.sum + u), count));
+    store_words(hn::IfThenElseZero(is_kept, mean), row.result + u);
   }
 }
 
@@ -140,10 +147,8 @@ void Neighbours::replace_rows(ConditionedDepth& depth, MakeRow make_row) {
   }
 }
 
-void Neighbours::keep_supported(ConditionedDepth& depth, int least) {
-  replace_rows(depth, [least](const NeighbourRow& row) {
-    HWY_DYNAMIC_DISPATCH(supported_row)(row, least);
-  });
+void Neighbours::keep_supported(ConditionedDepth& depth) {
+  replace_rows(depth, [](const NeighbourRow& row) { HWY_DYNAMIC_DISPATCH(supported_row)(row); });
 }
 
 void Neighbours::average(ConditionedDepth& depth) {

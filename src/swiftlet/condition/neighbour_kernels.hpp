@@ -38,6 +38,7 @@ class BorderedImage {
     return &pixels_[static_cast<std::size_t>(v + border_) * stride_ +
                     static_cast<std::size_t>(border_)];
   }
+  [[nodiscard]] std::size_t memory_bytes() const { return pixels_.capacity() * sizeof(pixels_[0]); }
 
  private:
   int border_, width_ = 0, height_ = 0;
@@ -59,10 +60,14 @@ struct NeighbourRow {
 /// Real time: allocates only when the size of images changes.
 class Neighbours {
  public:
-  /// Drops every reading that fewer than `least` of the 3 x 3 around it agree with, itself
-  /// included.
-  void keep_supported(ConditionedDepth& depth, int least);
-  /// Replaces every reading by the mean of those of the 5 x 5 around it that agree with it.
+  /// A reading needs so many of the 3 x 3 around it that agree with it, itself included: a rod of
+  /// two pixels has five or six.
+  static constexpr int kLeast = 3;
+
+  /// Drops every reading that has fewer.
+  void keep_supported(ConditionedDepth& depth);
+  /// Drops them, and replaces the others by the mean of those of the 5 x 5 around them that agree
+  /// with them.
   void average(ConditionedDepth& depth);
 
  private:

@@ -7,10 +7,10 @@
 namespace swiftlet {
 namespace {
 
-/// The noise of a pixel is not its neighbour's, so the mean of those of 5 x 5 that lie on the same
-/// surface is sharper than any of them. 25 of independent noise would leave a fifth of the
-/// deviation; matching windows overlap and edges have fewer, so the map is told to expect
-/// kNoiseLeft of it.
+/// Drops what LonePixels drops, and averages the rest. The noise of a pixel is not its neighbour's,
+/// so the mean of those of 5 x 5 that lie on the same surface is sharper than any of them. 25 of
+/// independent noise would leave a fifth of the deviation; matching windows overlap and edges have
+/// fewer, so the map is told to expect kNoiseLeft of it.
 class Smooth final : public DepthStep {
  public:
   explicit Smooth(const ConditionOptions&) {}

@@ -10,7 +10,7 @@
   X(distortion, "straightens depths that a bent stereo pair bends; see `swiftlet calibrate`")   \
   X(range_gate, "drops readings outside depth.min_range_m .. depth.max_range_m")                \
   X(lone_pixels, "drops readings that too few of their neighbours bear out: edges, mismatches") \
-  X(smooth, "replaces readings by the mean of their neighbours within noise")                   \
+  X(smooth, "drops them, too, and replaces the others by the mean of their neighbours")         \
   X(near_downsample, "keeps the nearest valid pixel of every n x n, n = depth.downsample")
 
 namespace swiftlet {

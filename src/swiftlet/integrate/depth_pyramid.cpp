@@ -4,7 +4,6 @@
 #include "swiftlet/integrate/depth_pyramid.hpp"
 
 #include <algorithm>
-#include <atomic>
 
 #include "swiftlet/integrate/depth_tiles.hpp"
 
@@ -39,18 +38,12 @@ void DepthPyramid::lay_out(int width, int height) {
   words_.resize(tiles);
 }
 
-void DepthPyramid::build(const Image<std::uint16_t>& raw, WorkerTeam& team) {
+void DepthPyramid::build(const Image<std::uint16_t>& raw) {
   if (raw.width() != width_ || raw.height() != height_) lay_out(raw.width(), raw.height());
   const Level& finest = levels_.front();
-  std::atomic<std::size_t> readings{0};
-  team.run([&](int worker) {
-    std::size_t mine = 0;
-    for (auto y = static_cast<std::size_t>(worker); y < finest.height;
-         y += static_cast<std::size_t>(team.threads()))
-      mine += summarise_tile_row(raw, static_cast<int>(y), &words_[y * finest.width]);
-    readings += mine;
-  });
-  readings_ = readings;
+  readings_ = 0;
+  for (std::size_t y = 0; y < finest.height; ++y)
+    readings_ += summarise_tile_row(raw, static_cast<int>(y), &words_[y * finest.width]);
   for (std::size_t i = 1; i < levels_.size(); ++i) merge(levels_[i - 1], levels_[i]);
 }
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "swiftlet/base/image.hpp"
-#include "swiftlet/base/worker_team.hpp"
 
 namespace swiftlet {
 
@@ -42,7 +41,7 @@ class DepthPyramid {
   }
 
   /// Allocates only while images grow.
-  void build(const Image<std::uint16_t>& raw, WorkerTeam& team);
+  void build(const Image<std::uint16_t>& raw);
 
   [[nodiscard]] PyramidTiles tiles() const;
   /// Of the whole image; 0 if there is none.

@@ -73,7 +73,7 @@ GhostDecay::Sight GhostDecay::look(const CubeView& view, const CubeInView& cube,
 
   const int u0 = pixel(left, view.width()), u1 = pixel(right, view.width());
   const int v0 = pixel(top, view.height()), v1 = pixel(bottom, view.height());
-  const PyramidTiles tiles = pyramid_.tiles();
+  const PyramidTiles tiles = pyramid_->tiles();
   const auto longest = static_cast<unsigned>(std::max(u1 - u0, v1 - v0) + 1);
   const int half_width = static_cast<int>(std::bit_width(longest)) - 2;  // its logarithm
   const int level = std::clamp(half_width - DepthPyramid::kTileShift, 0, tiles.levels - 1);
@@ -146,7 +146,7 @@ std::size_t GhostDecay::decay_block(const CubeView& view, const BlockIndex& inde
 std::size_t GhostDecay::apply(const DepthView& view, const Moment& moment, RollingMap& map) {
   const std::int32_t steps = steps_of(moment);
   if (steps == 0) return 0;
-  pyramid_.build(view.depth.raw, team_);
+  pyramid_ = &view.pyramid;
   raw_ = &view.depth.raw;
   unit_m_ = view.depth.unit_m;
   sigma_per_z2_ = static_cast<float>(moment.sigma_per_z2);

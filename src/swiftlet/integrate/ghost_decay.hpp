@@ -11,7 +11,6 @@
 
 #include "swiftlet/base/time.hpp"
 #include "swiftlet/integrate/cube_view.hpp"
-#include "swiftlet/integrate/depth_pyramid.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 
 namespace swiftlet {
@@ -45,8 +44,6 @@ class GhostDecay {
   /// After the integrator. Returns how many cells lost belief.
   std::size_t apply(const DepthView& view, const Moment& moment, RollingMap& map);
 
-  [[nodiscard]] std::size_t memory_bytes() const { return pyramid_.memory_bytes(); }
-
  private:
   struct Clock {
     std::optional<Stamp> last;
@@ -70,9 +67,8 @@ class GhostDecay {
 
   double decay_s_;
   std::array<Clock, 256> clocks_{};  // by camera
-  WorkerTeam team_{1};
-  DepthPyramid pyramid_;
   // Of this frame.
+  const DepthPyramid* pyramid_ = nullptr;
   const Image<std::uint16_t>* raw_ = nullptr;
   float unit_m_ = 0.0F, sigma_per_z2_ = 0.0F, max_range_m_ = 0.0F;
 };

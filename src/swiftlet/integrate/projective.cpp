@@ -68,13 +68,12 @@ class ProjectiveIntegrator final : public Integrator {
                              RollingMap& map) override {
     const Clock::time_point start = Clock::now();
     IntegrationTally tally;
-    pyramid_.build(view.depth.raw, team_);
-    tally.readings = pyramid_.readings();
+    tally.readings = view.pyramid.readings();
     if (tally.readings == 0) return tally;
     const CubeView cubes(view, map.voxel_m());
     const float unit_m = view.depth.unit_m;
     if (sensor.shape() == CellShape::kSlice)
-      table_.prepare(sensor, cubes.voxel_m(), unit_m * static_cast<float>(pyramid_.farthest()));
+      table_.prepare(sensor, cubes.voxel_m(), unit_m * static_cast<float>(view.pyramid.farthest()));
     const FrameInView in_view = look(cubes, sensor, table_, unit_m, steps_per_log_odds_);
     summaries_.build(view.depth.raw,
                      {.unit_m = unit_m,
@@ -82,7 +81,7 @@ class ProjectiveIntegrator final : public Integrator {
                       .most_scatter_m = kMostScatter * cubes.voxel_m(),
                       .frame_number = view.frame_number},
                      team_);
-    const FrameEvidence frame(cubes, pyramid_, summaries_, in_view, view.frame_number);
+    const FrameEvidence frame(cubes, view.pyramid, summaries_, in_view, view.frame_number);
 
     cubes_.find(map.window(), cubes, frame);
     std::atomic<std::size_t> next{0};
@@ -104,8 +103,7 @@ class ProjectiveIntegrator final : public Integrator {
   }
 
   [[nodiscard]] std::size_t memory_bytes() const override {
-    std::size_t bytes = pyramid_.memory_bytes() + table_.memory_bytes() +
-                        summaries_.memory_bytes() + cubes_.memory_bytes();
+    std::size_t bytes = table_.memory_bytes() + summaries_.memory_bytes() + cubes_.memory_bytes();
     for (const Worker& w : workers_) bytes += sizeof w + w.updates.capacity() * sizeof(BlockUpdate);
     return bytes;
   }
@@ -152,7 +150,6 @@ class ProjectiveIntegrator final : public Integrator {
   float steps_per_log_odds_;
   std::chrono::duration<double, std::milli> limit_;
   WorkerTeam team_;
-  DepthPyramid pyramid_;
   EvidenceTable table_;
   ReadingSummaries summaries_;
   ViewCubes cubes_;

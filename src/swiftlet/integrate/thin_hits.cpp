@@ -4,8 +4,7 @@
 #include "swiftlet/integrate/thin_hits.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
+#include <bit>
 
 namespace swiftlet {
 namespace {
@@ -14,17 +13,10 @@ namespace {
 constexpr int kLevel = 1;
 constexpr int kTile = DepthPyramid::kTile << kLevel;
 
-/// 1: something farther on one side at least, nothing near on the other; beside a near object a
-/// stereo camera is blind on one side. Numbers and no branches, so that compilers do it for many
-/// pixels at once.
-int rises_above(int a, int b, float far) {
-  const auto is_open = [far](int z) { return int{z == 0} | int{static_cast<float>(z) > far}; };
-  return is_open(a) & is_open(b) & int{(a | b) != 0};
-}
-
 }  // namespace
 
-ThinHits::ThinHits() : image_(static_cast<int>(kMostReach_px)), slots_(kSlots) {
+ThinHits::ThinHits()
+    : image_(static_cast<int>(RidgeLimits::kMostReach_px) + kTile), slots_(kSlots) {
   touched_.reserve(kMostCells);
 }
 
@@ -70,8 +62,7 @@ void ThinHits::collect(const DepthView& view, const RollingMap& map) {
   limits_ = {.half_cell_px = 0.5F * voxel_m * fx / unit_m,
              .least_behind = kBehindCells * voxel_m / unit_m,
              .behind_per_square = kBehindSigma * depth.noise_per_m * depth.noise_left * unit_m};
-  pyramid_.build(depth.raw, team_);
-  const PyramidTiles tiles = pyramid_.tiles();
+  const PyramidTiles tiles = view.pyramid.tiles();
   if (tiles.levels <= kLevel + 1) return;  // an image of a few pixels
   image_.take(depth.raw);
   for (int v = 0; v * kTile < depth.raw.height(); ++v) {
@@ -83,29 +74,14 @@ void ThinHits::collect(const DepthView& view, const RollingMap& map) {
 
 void ThinHits::collect_tile(const DepthView& view, const PyramidTiles& tiles, int tile_u,
                             int tile_v, const RollingMap& map) {
+  static_assert(RidgeTile::kEdge == kTile);
   const int tile = tiles.first[kLevel] + tile_v * tiles.width[kLevel] + tile_u;
   const int reach = limits_.reach_px(tiles.words[tile] & 0xfffe);
-  const int u = tile_u * kTile;
-  const Limits limits = limits_;
-  for (int v = tile_v * kTile; v < std::min((tile_v + 1) * kTile, view.depth.raw.height()); ++v) {
-    const std::uint16_t* const row = image_.row(v) + u;
-    const std::uint16_t* const above = image_.row(v - reach) + u;
-    const std::uint16_t* const below = image_.row(v + reach) + u;
-    std::array<std::uint8_t, kTile> is_on_ridge;
-    for (int i = 0; i < kTile; ++i) {
-      const int z = row[i];
-      const float far = limits.far_behind(static_cast<float>(z));
-      const int is_ridge =
-          rises_above(row[i - reach], row[i + reach], far) | rises_above(above[i], below[i], far);
-      is_on_ridge[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(is_ridge & int{z != 0});
-    }
-    std::uint64_t any = 0;
-    static_assert(sizeof any == sizeof is_on_ridge);
-    std::memcpy(&any, is_on_ridge.data(), sizeof any);
-    if (any == 0) continue;
-    for (int i = 0; i < kTile; ++i) {
-      if (is_on_ridge[static_cast<std::size_t>(i)] != 0) add_reading(view, u + i, v, map);
-    }
+  const int u = tile_u * kTile, v = tile_v * kTile;
+  const RidgeBits rows = find_ridges({&image_, u, v, reach}, limits_);
+  for (int k = 0; k < kTile; ++k) {
+    for (unsigned row = rows[static_cast<std::size_t>(k)]; row != 0; row &= row - 1)
+      add_reading(view, u + std::countr_zero(row), v + k, map);
   }
 }
 

@@ -9,10 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "swiftlet/base/worker_team.hpp"
-#include "swiftlet/condition/neighbour_kernels.hpp"
-#include "swiftlet/integrate/depth_pyramid.hpp"
 #include "swiftlet/integrate/integrator.hpp"
+#include "swiftlet/integrate/ridge_kernels.hpp"
 
 namespace swiftlet {
 
@@ -37,10 +35,14 @@ class ThinHits {
   /// After it: raises their cells. Returns how many.
   std::size_t protect(RollingMap& map);
 
+  /// Scratch memory [bytes].
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return image_.memory_bytes() + slots_.capacity() * sizeof(Slot) +
+           touched_.capacity() * sizeof(touched_[0]);
+  }
+
   /// A reading is clearly behind another by so many cells, and so many of its deviations.
   static constexpr float kBehindCells = 1.5F, kBehindSigma = 6.0F;
-  /// A ridge is looked for so far to the sides at least and at most.
-  static constexpr float kLeastReach_px = 2.0F, kMostReach_px = 64.0F;
 
  private:
   static constexpr std::size_t kSlots = 2 * kMostCells;  // a power of two
@@ -56,28 +58,11 @@ class ThinHits {
                     const RollingMap& map);
   void add_reading(const DepthView& view, int u, int v, const RollingMap& map);
   void add(const VoxelIndex& cell, const RollingMap& map);
-  /// What the readings of one frame are compared with. Depths in device units.
-  struct Limits {
-    float half_cell_px;  // at a depth of one unit
-    float least_behind, behind_per_square;
-
-    /// How far to the side half a cell is, for a reading.
-    [[nodiscard]] int reach_px(int z) const {
-      const float reach = std::floor(half_cell_px / static_cast<float>(z)) + 1.0F;
-      return static_cast<int>(std::clamp(reach, kLeastReach_px, kMostReach_px));
-    }
-    /// What is clearly behind a reading.
-    [[nodiscard]] float far_behind(float z) const {
-      return z + std::max(least_behind, behind_per_square * z * z);
-    }
-  };
-  Limits limits_{};
+  RidgeLimits limits_{};
   BorderedImage image_;
   std::vector<Slot> slots_;             // open addressing
   std::vector<std::uint32_t> touched_;  // slots of this frame, in the order of the pixels
   std::uint32_t frame_ = 0;
-  WorkerTeam team_{1};
-  DepthPyramid pyramid_;
 };
 
 }  // namespace swiftlet

@@ -7,14 +7,6 @@
 #include <utility>
 
 namespace swiftlet {
-namespace {
-
-bool has_readings(const ConditionedDepth& depth) {
-  return std::ranges::any_of(depth.raw.pixels(), [](std::uint16_t d) { return d != 0; });
-}
-
-}  // namespace
-
 Expected<Mapper> Mapper::create(const MapperConfig& config, BlockArchive* archive) {
   if (auto faults = config.faults(); !faults.empty())
     return tl::make_unexpected(std::move(faults.front()));
@@ -63,8 +55,9 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   const StereoNoise noise{frame.intrinsics.fx(), instrument.baseline_m, instrument.subpixel_px};
   const ConditionedDepth& depth =
       conditioner_.clean(frame.depth, frame.intrinsics, noise.sigma_m(1.0));
+  pyramid_.build(depth.raw);
   timer.finish(Stage::kCondition);
-  if (!has_readings(depth)) {
+  if (pyramid_.readings() == 0) {
     update.verdict = FrameVerdict::kNoReadings;
     return update;
   }
@@ -74,7 +67,7 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   const auto shape =
       config_.integrate.fusion == kSharpFusion ? CellShape::kChord : CellShape::kSlice;
   const StereoSensor sensor(frame.intrinsics, instrument, map_.voxel_m(), depth.ratio, shape);
-  const DepthView view{depth, frame.intrinsics, frame.T_world_camera, frame_count_};
+  const DepthView view{depth, pyramid_, frame.intrinsics, frame.T_world_camera, frame_count_};
   if (thin_) thin_->collect(view, map_);
   update.tally = integrator_->integrate(view, sensor, map_);
   if (thin_) thin_->protect(map_);

@@ -57,8 +57,8 @@ class Mapper {
   [[nodiscard]] std::uint64_t frame_count() const { return frame_count_; }
   /// The window and the integrator's scratch [bytes].
   [[nodiscard]] std::size_t memory_bytes() const {
-    const std::size_t decay = decay_ ? decay_->memory_bytes() : 0;
-    return map_.memory_bytes() + integrator_->memory_bytes() + decay;
+    const std::size_t thin = thin_ ? thin_->memory_bytes() : 0;
+    return map_.memory_bytes() + pyramid_.memory_bytes() + integrator_->memory_bytes() + thin;
   }
 
  private:
@@ -71,6 +71,7 @@ class Mapper {
   RollingMap map_;
   std::unique_ptr<FrameGate> gate_;
   Conditioner conditioner_;
+  DepthPyramid pyramid_;
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<ThinHits> thin_;     // null: with the thesis's rule
   std::unique_ptr<GhostDecay> decay_;  // null: never

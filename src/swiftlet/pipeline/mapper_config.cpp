@@ -51,7 +51,7 @@ ConditionOptions MapperConfig::conditioning() const {
   if (integrate.fusion != kSharpFusion) return options;
   const auto gate = std::ranges::find(options.steps, "range_gate");
   const auto behind = gate == options.steps.end() ? options.steps.begin() : gate + 1;
-  options.steps.insert(behind, {"lone_pixels", "smooth"});
+  options.steps.insert(behind, "smooth");
   return options;
 }
 
