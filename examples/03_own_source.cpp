@@ -28,13 +28,13 @@ int main() {
   swiftlet::Rig rig(options);
 
   // Yours: poses at 200 Hz, depth at 30 Hz, in whatever order they arrive. Here: 1 m/s towards a
-  // wall at x = 5.1 m.
+  // wall at x = 5 m.
   for (int ms = 0; ms < 2000; ms += 5) {
     const swiftlet::Stamp now{std::chrono::nanoseconds(ms * 1ms).count()};
     const double x_m = 0.001 * ms;
     rig.push(swiftlet::PoseSample{now, Eigen::Quaterniond::Identity(), {x_m, 0.0, 0.0}});
     if (ms % 35 == 0) {
-      const auto depth_mm = static_cast<std::uint16_t>(1000.0 * (5.1 - x_m - 0.1));
+      const auto depth_mm = static_cast<std::uint16_t>(1000.0 * (5.0 - x_m - 0.1));
       rig.push(swiftlet::DepthFrame{
           now, {swiftlet::Image<std::uint16_t>(160, 120, depth_mm), 0.001F}, *camera});
     }

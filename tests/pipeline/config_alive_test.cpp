@@ -68,6 +68,7 @@ MapperConfig base_config() {
   MapperConfig config;
   config.depth.downsample = 4;
   config.integrate.integrator = "rays";  // reads ray_method; the parameters below are the other's
+  config.integrate.fusion = "thesis";    // reads importance_m and p_max
   config.depth.min_range_m = 0.4;
   config.depth.distortion = {0.05, 0.08, 0.1, 0.1, 0.1};
   config.map.size_m = {16.0, 16.0, 6.0};  // 0.6 of it must lie in fewer blocks and still be allowed

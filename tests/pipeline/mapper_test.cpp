@@ -33,7 +33,7 @@ TEST(Mapper, turns_frames_of_a_wall_into_free_air_and_an_occupied_wall) {
   config.depth.downsample = 1;
   Mapper mapper = new_mapper(config);
   for (int i = 0; i < 5; ++i) {
-    EXPECT_EQ(mapper.integrate(test::wall_frame(test::small_camera(80, 60), 3.1)).verdict,
+    EXPECT_EQ(mapper.integrate(test::wall_frame(test::small_camera(80, 60), 3.02)).verdict,
               FrameVerdict::kIntegrated);
   }
   const auto snapshot = mapper.snapshot();
@@ -43,6 +43,26 @@ TEST(Mapper, turns_frames_of_a_wall_into_free_air_and_an_occupied_wall) {
   EXPECT_EQ(occupancy_at(*snapshot, {3.1, 0.1, 0.1}, config.occupancy), Occupancy::kOccupied);
   EXPECT_EQ(occupancy_at(*snapshot, {4.0, 0.1, 0.1}, config.occupancy), Occupancy::kUnknown);
   EXPECT_EQ(occupancy_at(*snapshot, {-1.0, 0.1, 0.1}, config.occupancy), Occupancy::kUnknown);
+}
+
+// Half a cell of matter may be unknown; the next one is all matter.
+TEST(Mapper, lets_nobody_through_a_wall_wherever_it_stands_in_its_cell) {
+  MapperConfig config;
+  for (int wall_mm = 3000; wall_mm <= 3200; wall_mm += 10) {
+    Mapper mapper = new_mapper(config);
+    const double x_m = 0.001 * wall_mm;
+    for (int i = 0; i < 10; ++i)
+      mapper.integrate(test::wall_frame(test::small_camera(80, 60), x_m));
+    const auto occupancy = [&](double at_m) {
+      return config.occupancy.classify(
+          mapper.map().log_odds(voxel_containing({at_m, 0.1, 0.1}, mapper.map().voxel_m())));
+    };
+    EXPECT_NE(occupancy(x_m + 0.01), Occupancy::kFree) << wall_mm;
+    EXPECT_TRUE(occupancy(x_m + 0.01) == Occupancy::kOccupied ||
+                occupancy(x_m + 0.15) == Occupancy::kOccupied)
+        << wall_mm;
+    EXPECT_EQ(occupancy(x_m - 0.3), Occupancy::kFree) << wall_mm;
+  }
 }
 
 TEST(Mapper, refuses_frames_it_cannot_use_and_leaves_the_map_alone) {

@@ -40,6 +40,7 @@ constexpr std::array kSettings{
     Setting{"projective", "voxel_traversal", 1}};
 
 Expected<std::vector<Runner>> make_runners(const Workload& workload, MapperConfig config) {
+  config.integrate.fusion = kThesisFusion;
   config.map.voxel_m = kCell_m;
   config.depth.downsample = 1;
   config.integrate.threads = 1;

@@ -20,13 +20,13 @@ struct BenchOptions {
   WorkloadOptions workload;
   std::vector<double> voxels_m{0.2, 0.1, 0.05};
   std::vector<int> threads{1, 2};
-  std::string fusion{kThesisFusion};
+  std::string fusion = IntegrateOptions{}.fusion;
   double range_m = 0.0;  ///< 0: as the kind of source demands
   bool with_tables = false;
   bool as_json = false;
 };
 
-/// The setting of the thesis: one reading, the nearest, for 8 x 8 pixels (table 4.1).
+/// The setting of the thesis, its rule: one reading, the nearest, for 8 x 8 pixels (table 4.1).
 constexpr double kThesisCell_m = 0.2;
 constexpr int kThesisDownsample = 8;
 
@@ -81,6 +81,7 @@ class Bench {
 
   Expected<std::vector<BenchRow>> at_thesis_setting() const {
     MapperConfig config = base();
+    config.integrate.fusion = kThesisFusion;
     config.map.voxel_m = kThesisCell_m;
     config.depth.downsample = kThesisDownsample;
     std::vector<Runner> runners;
@@ -90,8 +91,7 @@ class Bench {
     }
     tell(fmt::format("{}: the thesis's setting", workload_.name));
     race(workload_, runners);
-    return rows_of(workload_, kThesisCell_m, runners,
-                   fmt::format(", n = {}{}", kThesisDownsample, fusion_note()));
+    return rows_of(workload_, kThesisCell_m, runners, fmt::format(", n = {}", kThesisDownsample));
   }
 
   Expected<ThesisTables> thesis_tables() const {
@@ -105,7 +105,7 @@ class Bench {
  private:
   /// For the name of the workload, where the fusion is not the usual one.
   [[nodiscard]] std::string fusion_note() const {
-    return options_.fusion == kThesisFusion ? "" : ", " + options_.fusion;
+    return options_.fusion == IntegrateOptions{}.fusion ? "" : ", " + options_.fusion;
   }
 
   [[nodiscard]] MapperConfig base() const {

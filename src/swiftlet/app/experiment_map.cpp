@@ -11,8 +11,8 @@
 
 namespace swiftlet::app {
 
-Expected<Mapper> map_of(const std::string& address, const MapperConfig& config,
-                        std::size_t frames) {
+Expected<Mapper> map_of(const std::string& address, MapperConfig config, std::size_t frames) {
+  config.integrate.fusion = kThesisFusion;
   auto source = open_source(address);
   if (!source) return forward_error(std::move(source));
   auto mapper = Mapper::create(config);

@@ -22,7 +22,7 @@ namespace swiftlet {
 /// Everything that the integrators can be told.
 struct IntegrateOptions {
   std::string integrator = "projective";
-  std::string fusion = "thesis";  ///< what happens to a frame before and after; see MapperConfig
+  std::string fusion = "sharp";  ///< what happens to a frame before and after; see MapperConfig
   std::string ray_method = "voxel_traversal";
   double logodds_per_step = 0.04;  ///< one step of a cell's byte, so +-127 steps are +-5.08
   int threads = 1;                 ///< of the projective integrator; same map bits for any number
