@@ -86,12 +86,15 @@ void sensor(Options& o, Visit& visit) {
                     "disparity error s; 0.05 well textured, above 0.2 needs calibration", 0.001,
                     10.0},
         o.subpixel_px);
-  visit(ConfigField{"sensor.importance_m", "k of the inverse sensor model", 0.001, 10.0},
+  visit(ConfigField{"sensor.importance_m", "k of the inverse sensor model; not of sharp fusion",
+                    0.001, 10.0},
         o.model.importance_m);
   visit(ConfigField{"sensor.p_min", "occupancy of a cell that a ray passes", 0.01, 0.49},
         o.model.p_min);
-  visit(ConfigField{"sensor.p_max", "highest occupancy that one reading can claim", 0.51, 0.999},
-        o.model.p_max);
+  visit(
+      ConfigField{"sensor.p_max",
+                  "highest occupancy that one reading can claim; not of sharp fusion", 0.51, 0.999},
+      o.model.p_max);
 }
 
 template <class Options, class Visit>
