@@ -36,7 +36,7 @@ Expected<ExperimentResult> run_aisle() {
   std::vector<int> far_cells;
   std::string got;
   for (const int n : {1, 4, 8, 16}) {
-    MapperConfig config;
+    MapperConfig config = thesis_config();
     config.depth.downsample = n;
     config.depth.max_range_m = 12.0;
     config.map.size_m = {30, 10, 6};

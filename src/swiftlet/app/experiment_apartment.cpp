@@ -14,21 +14,28 @@ Expected<ExperimentResult> run_apartment();
 
 namespace {
 
-std::optional<double> value_of(const ScoreReport& report, std::string_view name) {
+/// A score of the map by the default fusion and of that by the thesis's rule; as bad as can be if
+/// it has none.
+struct Both {
+  double ours, thesis;
+};
+
+Both scores_of(const ScoreReport& report, std::string_view name, double worst) {
   const auto row =
       std::ranges::find_if(report.rows, [&](const ScoreRow& r) { return r.meaning.name == name; });
-  if (row == report.rows.end()) return std::nullopt;
-  return row->values.front();
+  if (row == report.rows.end()) return {worst, worst};
+  return {row->values[0].value_or(worst), row->values[1].value_or(worst)};
 }
 
 }  // namespace
 
-/// The flight of the demo, three images a second, in cells of 0.1 m, judged by the scene.
+/// The flight of the demo, three images a second, in cells of 0.1 m, judged by the scene. The
+/// default fusion is held to what the thesis expects; what its own rule reaches stands beside it.
 Expected<ExperimentResult> run_apartment() {
   constexpr const char* kFlight = "sim:apartment?rate=3";
   ScoreJob job;
   job.source = kFlight;
-  job.maps.emplace_back("projective");
+  job.maps = {job.config.integrate.fusion, std::string(kThesisFusion)};
   job.config.map.voxel_m = 0.1;
   const auto report = score_flight(job);
   if (!report) return tl::make_unexpected(report.error());
@@ -37,17 +44,22 @@ Expected<ExperimentResult> run_apartment() {
   ExperimentResult result;
   result.figures = {layer_figure(*mapper, {{-4, -4, 13}, {104, 84, 13}}, "apartment",
                                  "The flat at camera height, 1.3 m")};
-  const double recall = value_of(*report, "occupied recall, within 1 cell").value_or(0.0);
-  result.checks = {{"the map matches the floor plan", "98 % of the seen surface within a cell",
-                    fmt::format("{:.2f} %", 100.0 * recall), recall >= 0.98}};
-  const double corners = value_of(*report, "corner angles off, mean").value_or(90.0);
-  const double straight =
-      value_of(*report, "wall columns within half a cell of their line").value_or(0.0);
-  result.checks.push_back({"corners", "90 deg, to 1 deg on average",
-                           fmt::format("off by {:.2f} deg on average", corners), corners <= 1.0});
-  result.checks.push_back({"walls straight and solid",
-                           "80 % of their columns within half a cell of a line",
-                           fmt::format("{:.1f} %", 100.0 * straight), straight >= 0.8});
+  const Both recall = scores_of(*report, "occupied recall, within 1 cell", 0.0);
+  const Both corners = scores_of(*report, "corner angles off, mean", 90.0);
+  const Both straight = scores_of(*report, "wall columns within half a cell of their line", 0.0);
+  result.checks = {
+      {"the map matches the floor plan", "98 % of the seen surface within a cell",
+       fmt::format("{:.2f} % (thesis's rule: {:.2f} %)", 100.0 * recall.ours,
+                   100.0 * recall.thesis),
+       recall.ours >= 0.98},
+      {"corners", "90 deg, to 1 deg on average",
+       fmt::format("off by {:.2f} deg on average (thesis's rule: {:.2f} deg)", corners.ours,
+                   corners.thesis),
+       corners.ours <= 1.0},
+      {"walls straight and solid", "80 % of their columns within half a cell of a line",
+       fmt::format("{:.1f} % (thesis's rule: {:.1f} %)", 100.0 * straight.ours,
+                   100.0 * straight.thesis),
+       straight.ours >= 0.8}};
   return result;
 }
 

@@ -76,7 +76,7 @@ ExperimentResult common(const Mapper& mapper, const std::string& name) {
 }  // namespace
 
 Expected<ExperimentResult> run_large_box() {
-  const auto mapper = map_of("sim:large_box", MapperConfig{}, kFrames);
+  const auto mapper = map_of("sim:large_box", thesis_config(), kFrames);
   if (!mapper) return tl::make_unexpected(mapper.error());
   ExperimentResult result = common(*mapper, "large_box");
   const auto claim = [&](int y) {
@@ -92,7 +92,7 @@ Expected<ExperimentResult> run_large_box() {
 }
 
 Expected<ExperimentResult> run_small_box() {
-  const auto mapper = map_of("sim:small_box", MapperConfig{}, kFrames);
+  const auto mapper = map_of("sim:small_box", thesis_config(), kFrames);
   if (!mapper) return tl::make_unexpected(mapper.error());
   ExperimentResult result = common(*mapper, "small_box");
   const int known = known_behind(*mapper);

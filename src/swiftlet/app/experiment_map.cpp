@@ -11,8 +11,14 @@
 
 namespace swiftlet::app {
 
-Expected<Mapper> map_of(const std::string& address, MapperConfig config, std::size_t frames) {
+MapperConfig thesis_config() {
+  MapperConfig config;
   config.integrate.fusion = kThesisFusion;
+  return config;
+}
+
+Expected<Mapper> map_of(const std::string& address, const MapperConfig& config,
+                        std::size_t frames) {
   auto source = open_source(address);
   if (!source) return forward_error(std::move(source));
   auto mapper = Mapper::create(config);

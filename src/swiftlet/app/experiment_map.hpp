@@ -10,9 +10,11 @@
 
 namespace swiftlet::app {
 
-/// Maps the first `frames` frames of a source by the thesis's rule. Errors: those of the source and
-/// of Mapper::create().
-[[nodiscard]] Expected<Mapper> map_of(const std::string& address, MapperConfig config,
+/// The defaults, but for the thesis's rule of fusion.
+[[nodiscard]] MapperConfig thesis_config();
+
+/// Maps the first `frames` frames of a source. Errors: those of the source and of Mapper::create().
+[[nodiscard]] Expected<Mapper> map_of(const std::string& address, const MapperConfig& config,
                                       std::size_t frames);
 
 /// The cells of a map in the layer of height z, between two corners, as a figure.
