@@ -41,7 +41,11 @@ figure { margin: 1.4rem 0 0; padding: .8rem; background: var(--card); border-rad
 figure svg { display: block; width: 100%; height: auto; border-radius: .3rem; }
 figcaption { font-size: .85rem; color: var(--soft); margin-top: .4rem; }
 a { color: inherit; }
-@media (max-width: 34rem) { body { font-size: 15px; } figure { padding: .3rem; } }
+@media (max-width: 34rem) { body { font-size: 15px; } figure { padding: .3rem; }
+  tr:has(th) { display: none; } tr, td { display: block; } td { border: 0; padding: .1rem 0; }
+  tr { border-bottom: 1px solid var(--line); padding: .5rem 0; } td:first-child { font-weight: 600; }
+  td.expected::before { content: "expected: "; color: var(--soft); }
+  td.got::before { content: "got: "; color: var(--soft); } }
 </style></head><body>
 )";
 
@@ -84,8 +88,9 @@ std::string checks_table(const ExperimentResult& result) {
   std::string html =
       R"(<div class="table"><table><tr><th>result</th><th>expected</th><th>got</th><th></th></tr>)";
   for (const Check& check : result.checks) {
-    html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>{}</tr>", escaped(check.what),
-                        escaped(check.expected), escaped(check.got), verdict(check.is_passed));
+    html += fmt::format(
+        R"(<tr><td>{}</td><td class="expected">{}</td><td class="got">{}</td>{}</tr>)",
+        escaped(check.what), escaped(check.expected), escaped(check.got), verdict(check.is_passed));
   }
   return html + "</table></div>\n";
 }
