@@ -3,6 +3,8 @@
 
 #include "swiftlet/eval/reaction.hpp"
 
+#include <algorithm>
+
 namespace swiftlet::eval {
 
 void Reactions::observe(const MoverSights& sights, const Claims& claims) {
@@ -38,12 +40,17 @@ void Reactions::observe(State& state, MoverSight sight, Occupancy claim) {
   if (state.phase == Phase::kThere) state = {Phase::kGoing, 0};
   if (state.phase != Phase::kGoing) return;
   ++state.frames;
-  const bool is_free = claim == Occupancy::kFree;
-  not_freed_ += !is_free && state.frames == kFreedWithin ? 1 : 0;
-  if (!is_free) return;
-  freed_ += state.frames <= kFreedWithin ? 1 : 0;
+  if (claim != Occupancy::kFree) {
+    not_freed_ += state.frames == kFreedWithin ? 1 : 0;
+    return;
+  }
   until_free_.push_back(state.frames);
   state = {};
+}
+
+std::size_t Reactions::freed() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(until_free_, [](int frames) { return frames <= kFreedWithin; }));
 }
 
 std::size_t Reactions::ghosts() const {

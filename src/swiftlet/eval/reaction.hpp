@@ -32,7 +32,7 @@ class Reactions {
   [[nodiscard]] const std::vector<int>& until_free() const { return until_free_; }
   /// Cells that were free within kFreedWithin frames, and those that were not, be they free later
   /// or never.
-  [[nodiscard]] std::size_t freed() const { return freed_; }
+  [[nodiscard]] std::size_t freed() const;
   [[nodiscard]] std::size_t not_freed() const { return not_freed_; }
   /// Cells that showed matter for kJudgedAfter frames or more and never became occupied.
   [[nodiscard]] std::size_t missed() const { return missed_; }
@@ -52,7 +52,7 @@ class Reactions {
   CellGrid<MoverSight> last_sights_;
   std::vector<int> until_occupied_;
   std::vector<int> until_free_;
-  std::size_t missed_ = 0, freed_ = 0, not_freed_ = 0;
+  std::size_t missed_ = 0, not_freed_ = 0;
 };
 
 }  // namespace swiftlet::eval

@@ -61,22 +61,37 @@ struct ChordsOfFace {
   }
 };
 
-/// 1 / the deviation of readings, in units of their depth.
-HWY_INLINE FloatLanes depths_per_sigma(const FrameInView& frame, const Readings& r) {
-  return hn::Mul(hn::Mul(r.per_z, hn::Set(Floats(), frame.per_sigma)), r.narrow);
-}
+/// The readings of a tile, and the chords of the rays that end in it.
+struct ReadingsAndChords {
+  Readings readings;
+  FloatLanes z_out;      // where the rays leave their cells [m]
+  FloatLanes length;     // of the chords [cells]
+  FloatLanes per_sigma;  // 1 / the deviation of the readings, in units of their depth
 
-/// The least that readings say of cells which their rays leave at z_out.
-HWY_INLINE FloatLanes least_log_odds(const FrameInView& frame, const Readings& r,
-                                     FloatLanes per_sigma, FloatLanes z_out) {
-  constexpr Floats f;
-  static_assert(ChordModel::kClearSigma <= EvidenceTable::kInFrontSigma);
-  const FloatLanes clear = hn::Add(z_out, hn::Set(f, frame.clear_m));
-  const FloatLanes behind = hn::Sub(hn::Mul(clear, r.per_z), hn::Set(f, 1.0F));
-  const auto is_clear = hn::Lt(hn::Mul(behind, per_sigma), hn::Set(f, -ChordModel::kClearSigma));
-  return hn::IfThenElse(is_clear, hn::Set(f, frame.clear_log_odds),
-                        hn::Set(f, frame.free_log_odds));
-}
+  HWY_INLINE ReadingsAndChords(const FrameInView& frame, const ReadingTiles& tiles, const Sample& s,
+                               const ChordsOfFace& cell, const FaceSample& place)
+      : readings(readings_at(tiles, s.tile)), z_out(cell.z_out(s.z, place)) {
+    constexpr Floats f;
+    length = hn::Mul(hn::Sub(z_out, s.z), hn::Set(f, 1.0F / frame.voxel_m));
+    per_sigma = hn::Mul(hn::Mul(readings.per_z, hn::Set(f, frame.per_sigma)), readings.narrow);
+  }
+
+  /// How far x [m] lies behind the readings, in units of their depth: with sigma = a z^2,
+  /// (x - z) / sigma is (x / z - 1) / (a z), this times per_sigma.
+  [[nodiscard]] HWY_INLINE FloatLanes behind(FloatLanes x) const {
+    return hn::Sub(hn::Mul(x, readings.per_z), hn::Set(Floats(), 1.0F));
+  }
+
+  /// The least that the readings say of the cells.
+  [[nodiscard]] HWY_INLINE FloatLanes least_log_odds(const FrameInView& frame) const {
+    constexpr Floats f;
+    static_assert(ChordModel::kClearSigma <= EvidenceTable::kInFrontSigma);
+    const FloatLanes sigmas = hn::Mul(behind(hn::Add(z_out, hn::Set(f, frame.clear_m))), per_sigma);
+    const auto is_clear = hn::Lt(sigmas, hn::Set(f, -ChordModel::kClearSigma));
+    return hn::IfThenElse(is_clear, hn::Set(f, frame.clear_log_odds),
+                          hn::Set(f, frame.free_log_odds));
+  }
+};
 
 /// What the readings of a tile say of the cells by ChordModel.
 struct ChordEvidence {
@@ -86,32 +101,27 @@ struct ChordEvidence {
   HWY_INLINE static Said says(const FrameInView& frame, const ReadingTiles& tiles, const Sample& s,
                               const OfFace& cell, const FaceSample& place) {
     constexpr Floats f;
-    const Readings r = readings_at(tiles, s.tile);
-    const FloatLanes z_out = cell.z_out(s.z, place);
+    const ReadingsAndChords r(frame, tiles, s, cell, place);
     const FloatLanes one = hn::Set(f, 1.0F), zero = hn::Zero(f);
-    // (x - z) / sigma with sigma = a z^2 is (x / z - 1) / (a z).
-    const auto behind = [&](FloatLanes x) { return hn::Sub(hn::Mul(x, r.per_z), one); };
-    const FloatLanes per_sigma = depths_per_sigma(frame, r);
-    const FloatLanes gain = hn::Mul(hn::Mul(hn::Mul(per_sigma, per_sigma), r.per_z),
+    const FloatLanes gain = hn::Mul(hn::Mul(hn::Mul(r.per_sigma, r.per_sigma), r.readings.per_z),
                                     hn::Set(f, ChordModel::kIndependence * frame.voxel_m));
-    const FloatLanes middle = hn::Mul(hn::Add(s.z, z_out), hn::Set(f, 0.5F));
+    const FloatLanes middle = hn::Mul(hn::Add(s.z, r.z_out), hn::Set(f, 0.5F));
     const FloatLanes ratio =
-        hn::Min(hn::Max(hn::Mul(gain, behind(middle)), least_log_odds(frame, r, per_sigma, z_out)),
+        hn::Min(hn::Max(hn::Mul(gain, r.behind(middle)), r.least_log_odds(frame)),
                 hn::Set(f, ChordModel::kMostLogOdds));
 
     const FloatLanes hiding = hn::Set(f, ChordModel::kHidingCells * frame.voxel_m);
-    const FloatLanes before = hn::Mul(behind(hn::Sub(s.z, hiding)), per_sigma);
+    const FloatLanes before = hn::Mul(r.behind(hn::Sub(s.z, hiding)), r.per_sigma);
     const FloatLanes left =
         hn::Min(hn::Max(hn::Sub(hn::Set(f, ChordModel::kFadeSigma), before), zero), one);
     const auto is_reached = hn::Gt(left, zero);
     const FloatLanes fading = hn::IfThenElse(hn::Gt(ratio, zero), left, one);
-    const FloatLanes chord = hn::Mul(hn::Sub(z_out, s.z), hn::Set(f, 1.0F / frame.voxel_m));
-    const FloatLanes share = hn::IfThenElseZero(is_reached, r.share);
+    const FloatLanes share = hn::IfThenElseZero(is_reached, r.readings.share);
     Said said;
-    said.log_odds = hn::Mul(hn::Mul(ratio, fading), hn::Mul(chord, share));
+    said.log_odds = hn::Mul(hn::Mul(ratio, fading), hn::Mul(r.length, share));
 
     const FloatLanes end = hn::Set(f, ChordModel::kEndCells * frame.voxel_m);
-    const auto passes = hn::Lt(behind(hn::Add(z_out, end)), zero);
+    const auto passes = hn::Lt(r.behind(hn::Add(r.z_out, end)), zero);
     said.ends = hn::Mul(share, hn::IfThenElse(passes, hn::Set(f, -ChordModel::kLeastEnds),
                                               hn::Set(f, 1.0F - ChordModel::kLeastEnds)));
     return said;
@@ -125,13 +135,9 @@ struct PassedChord {
 
   HWY_INLINE static Said says(const FrameInView& frame, const ReadingTiles& tiles, const Sample& s,
                               const OfFace& cell, const FaceSample& place) {
-    constexpr Floats f;
-    const Readings r = readings_at(tiles, s.tile);
-    const FloatLanes z_out = cell.z_out(s.z, place);
-    const FloatLanes chord = hn::Mul(hn::Sub(z_out, s.z), hn::Set(f, 1.0F / frame.voxel_m));
+    const ReadingsAndChords r(frame, tiles, s, cell, place);
     Said said;
-    const FloatLanes least = least_log_odds(frame, r, depths_per_sigma(frame, r), z_out);
-    said.log_odds = hn::Mul(least, hn::Mul(chord, r.share));
+    said.log_odds = hn::Mul(r.least_log_odds(frame), hn::Mul(r.length, r.readings.share));
     return said;
   }
 };

@@ -48,9 +48,9 @@ class RayIntegrator final : public Integrator {
   }
 
  private:
-  /// Depths [m] at which a ray enters and leaves a cell.
+  /// Depths [m] at which a ray enters and leaves a cell, and how many cells of depth that is.
   struct Chord {
-    double z_in_m, z_out_m;
+    double z_in_m, z_out_m, length_cells;
   };
   /// The geometry of one view, in units of cells.
   struct Rays {
@@ -72,7 +72,7 @@ class RayIntegrator final : public Integrator {
 
     /// Where a ray crosses a cell; nowhere if it only touches it, as drawn lines do.
     [[nodiscard]] Chord chord(const Eigen::Vector3d& direction, const VoxelIndex& c) const {
-      Chord chord{0.0, std::numeric_limits<double>::infinity()};
+      Chord chord{0.0, std::numeric_limits<double>::infinity(), 0.0};
       const Eigen::Vector3d least = Eigen::Vector3d(c.x, c.y, c.z) - origin;
       for (int i = 0; i < 3; ++i) {
         if (direction[i] == 0.0) continue;
@@ -81,6 +81,7 @@ class RayIntegrator final : public Integrator {
         chord.z_out_m = std::min(chord.z_out_m, std::max(a_m, b_m));
       }
       chord.z_out_m = std::max(chord.z_in_m, chord.z_out_m);
+      chord.length_cells = (chord.z_out_m - chord.z_in_m) / voxel_m;
       return chord;
     }
 
@@ -91,48 +92,48 @@ class RayIntegrator final : public Integrator {
     double voxel_m;
   };
 
-  void add_reading(const Rays& rays, const Eigen::Vector3d& direction, double z_m,
-                   const StereoSensor& sensor, const VoxelBox& box) {
-    const double sigma_m = sensor.noise().sigma_m(z_m);
-    if (sensor.shape() == CellShape::kChord) {
-      add_chords(rays, direction, {z_m, sigma_m}, sensor, box);
-      return;
-    }
-    const double z_end_m = z_m + InverseSensorModel::kBandSigma * sigma_m;
-    const std::size_t n = trace_({rays.origin, rays.origin + z_end_m * direction}, box, cells_);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double z_cell_m = rays.depth_of(cells_[i]);
-      if (z_cell_m <= 0.0) continue;  // the camera's own cell, its centre behind the lens
-      const double logodds = sensor.log_odds(z_cell_m, z_m, sigma_m);
-      if (logodds == 0.0) continue;
-      const double fixed = sensor.weight(z_cell_m) * logodds * fixed_per_logodds_;
-      sums_.add(cells_[i], static_cast<std::int32_t>(std::lrint(fixed)));
-    }
-  }
-
   struct Reading {
     double z_m, sigma_m;
   };
-  /// With sharp fusion: each cell on the way gets DW * L * its chord.
-  void add_chords(const Rays& rays, const Eigen::Vector3d& direction, const Reading& reading,
-                  const StereoSensor& sensor, const VoxelBox& box) {
-    constexpr double kEndUnit = 1 << 20;
-    const double z_end_m = reading.z_m + double{ChordModel::kFadeSigma} * reading.sigma_m +
-                           double{ChordModel::kHidingCells} * rays.voxel_m;
+
+  void add_reading(const Rays& rays, const Eigen::Vector3d& direction, double z_m,
+                   const StereoSensor& sensor, const VoxelBox& box) {
+    const Reading reading{z_m, sensor.noise().sigma_m(z_m)};
+    const bool has_chords = sensor.shape() == CellShape::kChord;
+    const double z_end_m = has_chords ? z_m + double{ChordModel::kFadeSigma} * reading.sigma_m +
+                                            double{ChordModel::kHidingCells} * rays.voxel_m
+                                      : z_m + InverseSensorModel::kBandSigma * reading.sigma_m;
     const std::size_t n = trace_({rays.origin, rays.origin + z_end_m * direction}, box, cells_);
     for (std::size_t i = 0; i < n; ++i) {
-      const double z_cell_m = rays.depth_of(cells_[i]);
-      if (z_cell_m <= 0.0) continue;
-      const Chord chord = rays.chord(direction, cells_[i]);
-      const auto said =
-          sensor.chord_model().of(chord.z_in_m, chord.z_out_m, reading.z_m, reading.sigma_m);
-      const double length_cells = (chord.z_out_m - chord.z_in_m) / rays.voxel_m;
-      const double weight = sensor.weight(z_cell_m);
-      const double fixed = weight * length_cells * said.log_odds * fixed_per_logodds_;
-      sums_.add(cells_[i], static_cast<FixedSteps>(std::lrint(fixed)));
-      sums_.add_ends(cells_[i],
-                     static_cast<std::int32_t>(std::lrint(weight * said.ends * kEndUnit)));
+      const VoxelIndex& cell = cells_[i];
+      const double z_cell_m = rays.depth_of(cell);
+      if (z_cell_m <= 0.0) continue;  // the camera's own cell, its centre behind the lens
+      if (has_chords) {
+        add_chord(cell, z_cell_m, rays.chord(direction, cell), reading, sensor);
+      } else {
+        add_slice(cell, z_cell_m, reading, sensor);
+      }
     }
+  }
+
+  void add_slice(const VoxelIndex& cell, double z_cell_m, const Reading& reading,
+                 const StereoSensor& sensor) {
+    const double logodds = sensor.log_odds(z_cell_m, reading.z_m, reading.sigma_m);
+    if (logodds == 0.0) return;
+    const double fixed = sensor.weight(z_cell_m) * logodds * fixed_per_logodds_;
+    sums_.add(cell, static_cast<FixedSteps>(std::lrint(fixed)));
+  }
+
+  /// With sharp fusion: DW * L * the length of the chord.
+  void add_chord(const VoxelIndex& cell, double z_cell_m, const Chord& chord,
+                 const Reading& reading, const StereoSensor& sensor) {
+    constexpr double kEndUnit = 1 << 20;
+    const auto said =
+        sensor.chord_model().of(chord.z_in_m, chord.z_out_m, reading.z_m, reading.sigma_m);
+    const double weight = sensor.weight(z_cell_m);
+    const double fixed = weight * chord.length_cells * said.log_odds * fixed_per_logodds_;
+    sums_.add(cell, static_cast<FixedSteps>(std::lrint(fixed)));
+    sums_.add_ends(cell, static_cast<std::int32_t>(std::lrint(weight * said.ends * kEndUnit)));
   }
 
   TraceRay trace_;
