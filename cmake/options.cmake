@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright the Swiftlet authors
 
-# Several files of a target to one compiler run, for what is compiled more often than it is changed.
-function(swiftlet_compile_together target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
-  target_compile_options(${target} PRIVATE -Wno-shadow -Wno-subobject-linkage)  # true of files, not of their sum
+# Release optimises for the frame path (-O3). LEVEL is for what never runs in a frame: less time to compile.
+function(swiftlet_optimise target level)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
 endfunction()
 
 # Everything a Swiftlet target is compiled with; nothing of it reaches a consumer.
@@ -20,8 +19,9 @@ function(swiftlet_options target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)  # "text" + std::string is a false alarm: GCC bug 105651
   endif()
-  if(CMAKE_UNITY_BUILD)
-    swiftlet_compile_together(${target})
+  if(SWIFTLET_UNITY)  # several files to one compiler run: most of the time goes into headers that they share
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    target_compile_options(${target} PRIVATE -Wno-shadow -Wno-subobject-linkage)  # true of files, not of their sum
   endif()
   if(SWIFTLET_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
