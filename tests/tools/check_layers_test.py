@@ -29,6 +29,18 @@ CLEAN = {
     "app/main.cpp": '#include <CLI/CLI.hpp>\n#include "swiftlet/store/store.hpp"\n',
 }
 
+# Rooms within a layer: `b` may see `a`, and not the other way round.
+ROOMS_TABLE = TABLE + """| `map/a` | core | |
+| `map/b` | core | `map/a` |
+"""
+ROOMS = {
+    "map/kinds.hpp": "#include <cstdint>\n",
+    "map/a/one.hpp": '#include "swiftlet/base/time.hpp"\n#include "swiftlet/map/kinds.hpp"\n',
+    "map/b/two.hpp": '#include "swiftlet/map/a/one.hpp"\n',
+    "map/kinds.cpp": '#include "swiftlet/map/b/two.hpp"\n#include "swiftlet/map/kinds.hpp"\n',
+    "store/rooms.cpp": '#include "swiftlet/map/b/two.hpp"\n',
+}
+
 
 def check(files=None, table=TABLE):
     """Runs the tool on the clean project with some files replaced; gives exit code and output lines."""
@@ -110,6 +122,23 @@ class CheckLayers(unittest.TestCase):
     def test_refuses_a_name_without_a_row(self):
         table = TABLE.replace("| `map` | core | `base` |", "| `map` | core | `bass` |")
         self.assert_only_fault("bass, which has no row", table=table, code=2)
+
+    def test_accepts_rooms_that_see_what_their_rows_name(self):
+        self.assertEqual(check(ROOMS, ROOMS_TABLE), (0, []))
+
+    def test_finds_a_room_that_sees_another_against_the_table(self):
+        files = {**ROOMS, "map/a/one.cpp": '#include "swiftlet/map/b/two.hpp"\n'}
+        self.assert_only_fault("layer map/a may not see layer map/b", files, ROOMS_TABLE)
+
+    def test_finds_a_room_that_sees_more_than_the_layer_around_it(self):
+        files = {**ROOMS, "map/a/one.cpp": '#include "swiftlet/store/store.hpp"\n'}
+        self.assert_only_fault("layer map/a may not see layer store", files, ROOMS_TABLE)
+
+    def test_finds_a_room_without_a_row(self):
+        self.assert_only_fault("src/swiftlet/map/c: has no row", {"map/c/three.hpp": "#pragma once\n"})
+
+    def test_refuses_a_room_in_a_layer_without_a_row(self):
+        self.assert_only_fault("lies in maps, which has no row", table=TABLE + "| `maps/a` | core | |\n", code=2)
 
     def test_refuses_a_missing_table(self):
         self.assert_only_fault("no layer table", table="# Architecture\n", code=2)
