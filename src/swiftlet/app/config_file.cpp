@@ -5,12 +5,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "swiftlet/app/config_value.hpp"
 #include "swiftlet/app/nearest_name.hpp"
+#include "swiftlet/file/file_content.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -130,18 +129,6 @@ tl::expected<LoadedConfig, Faults> checked(const Settings& settings) {
   return tl::make_unexpected(std::move(faults));
 }
 
-Expected<std::string> read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return fail(ErrorCode::kNotFound, path, "the config file cannot be opened",
-                "check the path and that you may read it");
-  }
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad())
-    return fail(ErrorCode::kIo, path, "the config file cannot be read", "is it a folder?");
-  return text;
-}
-
 }  // namespace
 
 tl::expected<LoadedConfig, Faults> load_config(const ConfigInput& input) {
@@ -150,7 +137,7 @@ tl::expected<LoadedConfig, Faults> load_config(const ConfigInput& input) {
     settings.insert(settings.end(), more.begin(), more.end());
   };
   if (!input.file.empty()) {
-    auto text = read_text(input.file);
+    auto text = read_text_file(input.file, kMostSettingsBytes);
     if (!text) return tl::make_unexpected(fault_of(std::move(text)));
     auto from_file = settings_of(*text, input.file);
     if (!from_file) return tl::make_unexpected(std::move(from_file).error());

@@ -21,4 +21,12 @@ template <class Number>
   return value;
 }
 
+/// A decimal number in any notation, also with a plus, "nan" and "inf"; nullopt unless the whole
+/// word is one.
+[[nodiscard]] inline std::optional<double> parse_number(std::string_view word) {
+  // from_chars knows only the minus; "+-1" stays no number.
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  return number_from<double>(word);
+}
+
 }  // namespace swiftlet

@@ -16,6 +16,8 @@
 #include <string_view>
 #include <vector>
 
+#include "swiftlet/file/file_content.hpp"
+
 namespace swiftlet::sim {
 namespace {
 
@@ -237,6 +239,7 @@ Expected<TriangleMesh> read_ply(std::istream& in, const std::string& name) {
 }
 
 Expected<TriangleMesh> read_ply(const std::string& path) {
+  if (auto usable = check_regular_file(path); !usable) return forward_error(std::move(usable));
   std::ifstream in(path, std::ios::binary);
   if (!in) return fail(ErrorCode::kNotFound, path, "the mesh cannot be read");
   return read_ply(in, path);

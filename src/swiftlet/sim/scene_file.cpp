@@ -8,9 +8,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "swiftlet/file/file_content.hpp"
 #include "swiftlet/sim/built_in_scenes.hpp"
 #include "swiftlet/sim/scene_sections_private.hpp"
 
@@ -24,14 +23,10 @@ std::vector<std::string_view> built_in_names() {
 }
 
 Expected<std::string> read_text(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || !text) {
-    return fail(ErrorCode::kNotFound, path.string(), "the scene file cannot be read",
-                fmt::format("built in are: {}", fmt::join(built_in_names(), ", ")));
-  }
-  return std::move(text).str();
+  auto text = read_text_file(path, kMostSettingsBytes);
+  if (!text && text.error().code == ErrorCode::kNotFound)
+    text.error().remedy = fmt::format("built in are: {}", fmt::join(built_in_names(), ", "));
+  return text;
 }
 
 Scene read_scene(const YAML::Node& root, YamlProblem& problem) {

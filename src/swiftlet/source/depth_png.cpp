@@ -16,7 +16,7 @@
 #include <string>
 
 #include "swiftlet/base/narrow.hpp"
-#include "swiftlet/source/text_file.hpp"
+#include "swiftlet/file/file_content.hpp"
 
 namespace swiftlet {
 namespace {
@@ -126,7 +126,7 @@ Status check_kind(const PngDecoder& png, const std::string& where, std::size_t f
 Expected<DepthImage> read_depth_png(const std::filesystem::path& path,
                                     const DepthPngFormat& format) {
   const std::string where = path.string();
-  auto file = read_file(path);
+  auto file = read_file(path, kMostImageBytes);
   if (!file) return forward_error(std::move(file));
   if (file->empty()) return damaged(where, "the file is empty");
 

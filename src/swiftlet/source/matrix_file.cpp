@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "swiftlet/file/file_content.hpp"
 #include "swiftlet/source/text_file.hpp"
 
 namespace swiftlet {
@@ -12,7 +13,7 @@ namespace {
 
 template <int N>
 Expected<Eigen::Matrix<double, N, N>> read_square_matrix(const std::filesystem::path& path) {
-  auto text = read_file(path);
+  auto text = read_text_file(path, kMostMatrixBytes);
   if (!text) return forward_error(std::move(text));
 
   const auto words = words_of(*text);

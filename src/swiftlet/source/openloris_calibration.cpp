@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "swiftlet/file/file_content.hpp"
 #include "swiftlet/source/frame_tree.hpp"
-#include "swiftlet/source/text_file.hpp"
 
 namespace swiftlet {
 namespace {
@@ -35,7 +35,7 @@ std::string without_directive(std::string text) {
 /// Calls read(root) with a file's content; yaml-cpp reports by exception, and none passes here.
 template <class Read>
 auto with_yaml(const fs::path& file, Read read) -> decltype(read(YAML::Node())) {
-  auto text = read_file(file);
+  auto text = read_text_file(file, kMostSettingsBytes);
   if (!text) {
     text.error().remedy =
         "an OpenLORIS-Scene folder holds depth.txt, groundtruth.txt, "

@@ -13,9 +13,9 @@
 #include <optional>
 #include <span>
 
+#include "swiftlet/file/file_content.hpp"
 #include "swiftlet/sim/flight.hpp"
 #include "swiftlet/sim/yaml_section_private.hpp"
-#include "swiftlet/source/text_file.hpp"
 
 namespace swiftlet {
 namespace {
@@ -168,7 +168,7 @@ Expected<RigDescription> parse_rig(std::string_view yaml, std::string_view origi
 }
 
 Expected<RigDescription> load_rig(const std::filesystem::path& path) {
-  auto text = read_file(path);
+  auto text = read_text_file(path, kMostSettingsBytes);
   if (!text) return forward_error(std::move(text));
   return parse_rig(*text, path.string());
 }

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "swiftlet/source/text_file.hpp"
+#include "swiftlet/base/number_text.hpp"
 
 namespace swiftlet {
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "swiftlet/file/file_content.hpp"
 #include "swiftlet/source/bag_scan.hpp"
 #include "swiftlet/source/pose_line.hpp"
 #include "swiftlet/source/text_file.hpp"
@@ -33,7 +34,7 @@ class TextPoses final : public PoseStream {
 }  // namespace
 
 Expected<BagPoses> open_text_poses(const std::filesystem::path& path, const BagTopics& topics) {
-  auto text = read_file(path);
+  auto text = read_text_file(path, kMostListBytes);
   if (!text) return forward_error(std::move(text));
   std::vector<PoseSample> poses;
   for (const TextRow& row : rows_of(*text)) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <span>
 
+#include "swiftlet/file/file_content.hpp"
 #include "swiftlet/source/text_file.hpp"
 
 namespace swiftlet {
@@ -52,7 +53,7 @@ Expected<TumPose> parse_pose(Words words) {
 
 template <class Row>
 Expected<std::vector<Row>> read_list(const fs::path& list, Expected<Row> (*parse)(Words)) {
-  auto text = read_file(list);
+  auto text = read_text_file(list, kMostListBytes);
   if (!text) {
     text.error().remedy = "a TUM RGB-D folder holds depth.txt, groundtruth.txt and the images";
     return forward_error(std::move(text));

@@ -13,6 +13,8 @@
 #include <sstream>
 #include <utility>
 
+#include "swiftlet/file/file_content.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -156,6 +158,7 @@ class TreeReader {
 }  // namespace
 
 Expected<OctomapSummary> read_octomap(const std::filesystem::path& path, const VisitLeaf& visit) {
+  if (auto usable = check_regular_file(path); !usable) return forward_error(std::move(usable));
   std::ifstream in(path, std::ios::binary);
   if (!in) return fail(ErrorCode::kNotFound, path.string(), "the file cannot be opened");
   auto header = read_header(in, path.string());
