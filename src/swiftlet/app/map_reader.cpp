@@ -3,6 +3,7 @@
 
 #include "swiftlet/app/map_reader.hpp"
 
+#include <locale>
 #include <sstream>
 
 #include "swiftlet/app/config_file.hpp"
@@ -28,6 +29,7 @@ Expected<LoadedMap> read_whole_map(const std::string& path) {
   const auto start = saved->meta().find("start_m");  // older maps and other writers have none
   if (start != saved->meta().end()) {
     std::istringstream numbers(start->second);
+    numbers.imbue(std::locale::classic());
     numbers >> map.start_m.x() >> map.start_m.y() >> map.start_m.z();
   }
   auto read =

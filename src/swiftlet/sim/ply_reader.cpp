@@ -11,11 +11,14 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <iomanip>
+#include <locale>
 #include <optional>
 #include <sstream>
 #include <string_view>
 #include <vector>
 
+#include "swiftlet/base/number_text.hpp"
 #include "swiftlet/file/file_content.hpp"
 
 namespace swiftlet::sim {
@@ -59,6 +62,8 @@ const ScalarType* find_type(std::string_view name) {
   return found == kScalarTypes.end() ? nullptr : found;
 }
 
+constexpr int kLongestNumber = 400;  // DBL_MAX written out has 309 digits
+
 /// Reads header and values; after a fault every further value is refused.
 class PlyFile {
  public:
@@ -84,8 +89,8 @@ class PlyFile {
 
   std::optional<double> value(const ScalarType& type) {
     if (!is_binary_) {
-      double number = 0.0;
-      return in_ >> number ? std::optional(number) : std::nullopt;
+      std::string word;
+      return in_ >> std::setw(kLongestNumber) >> word ? number_from<double>(word) : std::nullopt;
     }
     std::array<char, 8> raw{};
     if (!in_.read(raw.data(), static_cast<std::streamsize>(type.bytes))) return std::nullopt;
@@ -101,6 +106,7 @@ class PlyFile {
 
   Status header_line(const std::string& line, Header& header) {
     std::istringstream words(line);
+    words.imbue(std::locale::classic());  // the caller's may group digits
     std::string key;
     words >> key;
     if (key == "format") {

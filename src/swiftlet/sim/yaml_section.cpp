@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "swiftlet/base/number_text.hpp"
 #include "swiftlet/sim/yaml_section_private.hpp"
 
 namespace swiftlet::sim {
@@ -57,8 +58,10 @@ bool YamlSection::has(std::string_view key) {
 }
 
 double YamlSection::scalar(const YAML::Node& node, std::string_view key, const Limits& limits) {
-  double value = 0.0;
-  if (!node.IsScalar() || !YAML::convert<double>::decode(node, value)) {
+  // Not yaml-cpp's own conversion, which follows the locale of the host program.
+  const auto number = node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
+  const double value = number.value_or(0.0);
+  if (!number) {
     problem_->add(node.Mark(), fmt::format("'{}' of {} must be a number", key, title_));
     return 0.0;
   }

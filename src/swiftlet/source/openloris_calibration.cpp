@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "swiftlet/base/number_text.hpp"
 #include "swiftlet/file/file_content.hpp"
 #include "swiftlet/source/frame_tree.hpp"
 
@@ -50,9 +51,19 @@ auto with_yaml(const fs::path& file, Read read) -> decltype(read(YAML::Node())) 
   }
 }
 
+/// A number, whatever the locale of the host program, which yaml-cpp's own conversion follows.
+template <class Number>
+Number yaml_number(const YAML::Node& node) {
+  const auto number = number_from<Number>(node.Scalar());
+  if (!number) throw YAML::RepresentationException(node.Mark(), "this should be a number");
+  return *number;
+}
+
 /// The numbers of an !!opencv-matrix.
 std::vector<double> matrix(const YAML::Node& node) {
-  return node["data"].as<std::vector<double>>();
+  std::vector<double> values;
+  for (const YAML::Node& value : node["data"]) values.push_back(yaml_number<double>(value));
+  return values;
 }
 
 Expected<PinholeIntrinsics> intrinsics_from(const fs::path& file, const YAML::Node& camera) {
@@ -66,8 +77,8 @@ Expected<PinholeIntrinsics> intrinsics_from(const fs::path& file, const YAML::No
   const auto [fx, cx, fy, cy] = std::tie(values[0], values[1], values[2], values[3]);
   if (!(std::abs(fx / fy - 1.0) < 0.2))
     return wrong(file, "the intrinsics are not in the data set's own order, fx, cx, fy, cy");
-  auto intrinsics = PinholeIntrinsics::create(camera["width"].as<int>(), camera["height"].as<int>(),
-                                              fx, fy, cx, cy);
+  auto intrinsics = PinholeIntrinsics::create(yaml_number<int>(camera["width"]),
+                                              yaml_number<int>(camera["height"]), fx, fy, cx, cy);
   if (!intrinsics) intrinsics.error().where = file.string();
   return intrinsics;
 }

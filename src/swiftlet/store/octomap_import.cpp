@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <fstream>
+#include <locale>
 #include <sstream>
 #include <utility>
 
@@ -41,6 +42,7 @@ Expected<Header> read_header(std::istream& in, const std::string& where) {
   }
   while (std::getline(in, line) && line != "data") {
     std::istringstream words(line);
+    words.imbue(std::locale::classic());  // the caller's may have a decimal comma
     std::string key;
     words >> key;
     if (key == "id") words >> header.kind;

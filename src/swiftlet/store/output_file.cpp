@@ -6,6 +6,7 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
+#include <locale>
 #include <system_error>
 #include <utility>
 
@@ -14,7 +15,9 @@ namespace swiftlet {
 OutputFile::OutputFile(std::filesystem::path path, std::filesystem::path temporary)
     : path_(std::move(path)),
       temporary_(std::move(temporary)),
-      stream_(temporary_, std::ios::binary | std::ios::trunc) {}
+      stream_(temporary_, std::ios::binary | std::ios::trunc) {
+  stream_.imbue(std::locale::classic());  // no decimal comma of the host program
+}
 
 Expected<OutputFile> OutputFile::create(const std::filesystem::path& path) {
   OutputFile file(path, path.string() + ".part");
