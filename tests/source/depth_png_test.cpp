@@ -140,5 +140,64 @@ TEST_F(DepthPng, that_is_missing_empty_a_folder_or_no_png_says_which) {
   EXPECT_THAT(error_of_reading().what, HasSubstr("folder"));
 }
 
+/// A chunk with its right check sum.
+std::string png_chunk(const std::string& name, const std::string& data) {
+  std::uint32_t crc = 0xFFFFFFFFU;
+  for (const char c : name + data) {
+    crc ^= static_cast<std::uint8_t>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+  }
+  const auto word = [](std::uint32_t value) {
+    std::string bytes;
+    for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<char>(value >> shift));
+    return bytes;
+  };
+  return word(static_cast<std::uint32_t>(data.size())) + name + data + word(~crc);
+}
+
+TEST_F(DepthPng, passes_over_texts_and_profiles_whatever_they_hold) {
+  const auto image = noise(rng_, 8, 8);
+  test::write_png(file_, image);
+  std::string bytes = test::content_of(file_);
+  // Broken deflate in each: reading them would warn or fail, inflating them could take gigabytes.
+  std::string texts;
+  for (int i = 0; i < 2000; ++i) texts += png_chunk("zTXt", std::string("k\0\0x", 4));
+  for (const char* name : {"iCCP", "iTXt", "tEXt", "sPLT", "eXIf", "tRNS", "prVt"})
+    texts += png_chunk(name, std::string("k\0\0\0\0no deflate", 15));
+  bytes.insert(33, texts);  // behind the header
+  bytes.insert(bytes.find("IEND") - 4, texts);
+  test::write_file(file_, bytes);
+  const auto depth = read_depth_png(file_, {});
+  ASSERT_TRUE(depth) << depth.error().text();
+  EXPECT_TRUE(std::ranges::equal(depth->raw.pixels(), image.pixels()));
+}
+
+TEST_F(DepthPng, that_holds_far_more_bytes_than_its_pixels_take_is_refused) {
+  test::write_png(file_, noise(rng_, 8, 8));
+  std::string bytes = test::content_of(file_);
+  bytes.insert(33, png_chunk("tEXt", std::string(std::size_t{5} << 20, 'x')));
+  test::write_file(file_, bytes);
+  EXPECT_THAT(error_of_reading().what, HasSubstr("too many for 8 x 8 pixels"));
+}
+
+TEST_F(DepthPng, of_more_pixels_than_any_depth_camera_has_is_refused_by_its_size) {
+  test::write_png(file_, noise(rng_, 8, 8));
+  test::declare_png_size(file_, 16384, 16384);
+  std::string bytes = test::content_of(file_);
+  bytes.insert(33, png_chunk("tEXt", std::string(1 << 20, 'x')));  // enough to hold as many
+  test::write_file(file_, bytes);
+  const Error error = error_of_reading();
+  EXPECT_EQ(error.code, ErrorCode::kUnsupported);
+  EXPECT_THAT(error.what, HasSubstr("16384 x 16384 pixels are more than"));
+}
+
+TEST_F(DepthPng, with_another_chunk_before_its_header_is_refused) {
+  test::write_png(file_, noise(rng_, 8, 8));
+  std::string bytes = test::content_of(file_);
+  bytes.insert(8, png_chunk("prVt", "its size stands elsewhere"));
+  test::write_file(file_, bytes);
+  EXPECT_EQ(error_of_reading().code, ErrorCode::kCorruptInput);
+}
+
 }  // namespace
 }  // namespace swiftlet
