@@ -157,5 +157,25 @@ TEST_F(OpenLoris, says_what_is_wrong_with_its_files) {
   EXPECT_THAT(read_all(address()).error, HasSubstr("groundtruth.txt"));
 }
 
+TEST_F(OpenLoris, leaves_out_and_counts_bad_images_and_poses) {
+  write_file(folder_ / "depth/1560004885.133333.png", "no image");
+  std::filesystem::remove(folder_ / "depth/1560004885.166666.png");
+  write_file(folder_ / "groundtruth.txt",
+             "1560004885.105 nan 0 0 0 0 0 1\n" + test::content_of(folder_ / "groundtruth.txt"));
+  auto reading = read_all(address());
+  EXPECT_EQ(reading.error, "");
+  EXPECT_EQ(reading.frames.size(), 3U);
+  EXPECT_EQ(reading.tally.of(FrameLoss::kImageUnreadable), 1U);
+  EXPECT_EQ(reading.tally.of(FrameLoss::kImageMissing), 1U);
+  EXPECT_EQ(reading.tally.poses_refused, 1U);
+  EXPECT_EQ(reading.events.size(), 2U);
+}
+
+TEST_F(OpenLoris, without_a_single_good_image_is_an_error) {
+  for (const auto& image : std::filesystem::directory_iterator(folder_ / "depth"))
+    write_file(image.path(), "no image");
+  EXPECT_THAT(read_all(address()).error, HasSubstr("damaged PNG"));
+}
+
 }  // namespace
 }  // namespace swiftlet

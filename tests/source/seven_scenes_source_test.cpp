@@ -22,6 +22,7 @@ class SevenScenes : public ::testing::Test {
  protected:
   void SetUp() override { test::write_seven_scenes(folder_.path()); }
   [[nodiscard]] std::string address() const { return "7scenes:" + folder_.path().string(); }
+  [[nodiscard]] static std::string bad_pose() { return "inf 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"; }
   test::TempFolder folder_;
 };
 
@@ -114,11 +115,14 @@ TEST_F(SevenScenes, refuses_two_files_of_one_number) {
   EXPECT_THAT(read_all(address()).error, HasSubstr("same frame number"));
 }
 
-TEST_F(SevenScenes, refuses_a_depth_image_without_a_pose_before_the_first_frame) {
-  std::filesystem::remove(folder_ / "frame-000002.pose.txt");
-  const auto reading = read_all(address());
-  EXPECT_TRUE(reading.frames.empty());
-  EXPECT_THAT(reading.error, AllOf(HasSubstr("frame-000002.pose.txt"), HasSubstr("no pose")));
+TEST_F(SevenScenes, leaves_out_and_counts_a_depth_image_without_a_pose) {
+  std::filesystem::remove(folder_ / "frame-000001.pose.txt");
+  auto reading = read_all(address());
+  EXPECT_EQ(reading.error, "");
+  EXPECT_EQ(reading.frames.size(), 2U);
+  EXPECT_EQ(reading.tally.of(FrameLoss::kNoPose), 1U);
+  ASSERT_EQ(reading.events.size(), 1U);
+  EXPECT_THAT(reading.events[0].who, HasSubstr("frame-000001.pose.txt"));
 }
 
 struct BadPose {
@@ -126,7 +130,7 @@ struct BadPose {
   const char* complaint;
 };
 
-TEST_F(SevenScenes, stops_at_a_bad_pose_naming_file_fault_and_remedy) {
+TEST_F(SevenScenes, leaves_out_and_counts_a_bad_pose_naming_file_and_fault) {
   const BadPose bad[] = {
       {"nan 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "not finite"},
       {"1 0 0 nan\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "not finite"},
@@ -142,11 +146,31 @@ TEST_F(SevenScenes, stops_at_a_bad_pose_naming_file_fault_and_remedy) {
   };
   for (const BadPose& pose : bad) {
     write_file(folder_ / "frame-000001.pose.txt", pose.text);
-    const auto reading = read_all(address());
-    EXPECT_EQ(reading.frames.size(), 1U) << "what came before stays good";
-    EXPECT_THAT(reading.error,
-                AllOf(HasSubstr("frame-000001.pose.txt"), HasSubstr(pose.complaint)));
+    auto reading = read_all(address());
+    EXPECT_EQ(reading.error, "");
+    EXPECT_EQ(reading.frames.size(), 2U) << "the others stay good";
+    EXPECT_EQ(reading.tally.of(FrameLoss::kPoseRefused), 1U);
+    ASSERT_EQ(reading.events.size(), 1U);
+    EXPECT_THAT(reading.events[0].who, HasSubstr("frame-000001.pose.txt"));
+    EXPECT_THAT(reading.events[0].what, HasSubstr(pose.complaint));
   }
+}
+
+TEST_F(SevenScenes, without_a_single_good_pose_is_an_error_that_names_the_first) {
+  for (const int number : {0, 1, 2})
+    write_file(folder_ / fmt::format("frame-{:06}.pose.txt", number), bad_pose());
+  EXPECT_THAT(read_all(address()).error,
+              AllOf(HasSubstr("frame-000000.pose.txt"), HasSubstr("not finite"),
+                    HasSubstr("camera-to-world")));
+}
+
+TEST_F(SevenScenes, tells_of_the_first_bad_records_and_counts_all) {
+  for (int number = 3; number < 40; ++number)
+    test::write_seven_scenes_frame(folder_.path(), number, flat(2000), bad_pose());
+  auto reading = read_all(address());
+  EXPECT_EQ(reading.frames.size(), 3U) << reading.error;
+  EXPECT_EQ(reading.tally.of(FrameLoss::kPoseRefused), 37U);
+  EXPECT_EQ(reading.events.size(), 5U);
 }
 
 TEST_F(SevenScenes, reads_poses_as_microsoft_writes_them) {
@@ -179,25 +203,34 @@ TEST_F(SevenScenes, refuses_a_camera_that_cannot_be_used) {
   }
 }
 
-TEST_F(SevenScenes, stops_at_a_damaged_image_naming_it) {
+TEST_F(SevenScenes, leaves_out_and_counts_a_damaged_image_naming_it) {
   const std::string whole = test::content_of(folder_ / "frame-000001.depth.png");
   for (std::size_t part = 0; part < 16; ++part) {
     write_file(folder_ / "frame-000001.depth.png",
                std::string_view(whole).substr(0, whole.size() * part / 16));
-    const auto reading = read_all(address());
-    EXPECT_EQ(reading.frames.size(), 1U);
-    EXPECT_THAT(reading.error, AllOf(HasSubstr("frame-000001.depth.png"), HasSubstr("damaged")));
+    auto reading = read_all(address());
+    EXPECT_EQ(reading.error, "");
+    EXPECT_EQ(reading.frames.size(), 2U);
+    EXPECT_EQ(reading.tally.of(FrameLoss::kImageUnreadable), 1U);
+    ASSERT_EQ(reading.events.size(), 1U);
+    EXPECT_THAT(reading.events[0].who, HasSubstr("frame-000001.depth.png"));
+    EXPECT_THAT(reading.events[0].what, HasSubstr("damaged"));
   }
 }
 
-TEST_F(SevenScenes, stops_at_an_image_of_another_kind_or_size) {
+TEST_F(SevenScenes, leaves_out_and_counts_an_image_of_another_kind_or_size) {
+  const auto complaint = [&] {
+    auto reading = read_all(address());
+    EXPECT_EQ(reading.frames.size(), 2U) << reading.error;
+    EXPECT_EQ(reading.tally.of(FrameLoss::kImageUnreadable), 1U);
+    return reading.events.empty() ? "" : reading.events[0].what;
+  };
   for (const auto kind : {test::PngKind::kGrey8, test::PngKind::kRgb8}) {
     write_png(folder_ / "frame-000001.depth.png", flat(2000), kind);
-    EXPECT_THAT(read_all(address()).error, HasSubstr("not a depth image"));
+    EXPECT_THAT(complaint(), HasSubstr("not a depth image"));
   }
   write_png(folder_ / "frame-000001.depth.png", Image<std::uint16_t>(16, 24, 1));
-  EXPECT_THAT(read_all(address()).error,
-              HasSubstr("16 x 24 pixels, but the first image has 24 x 16"));
+  EXPECT_THAT(complaint(), HasSubstr("16 x 24 pixels, but the first image has 24 x 16"));
 }
 
 }  // namespace

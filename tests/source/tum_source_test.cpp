@@ -164,10 +164,6 @@ TEST_F(Tum, refuses_a_malformed_line_naming_file_and_line) {
       {"1305031102.5 0 0 0 0 0 0 1 7\n", "8 columns"},
       {"soon 0 0 0 0 0 0 1\n", "'soon' is not a time"},
       {"1305031102.5 0 x 0 0 0 0 1\n", "'x' is not a number"},
-      {"1305031102.5 0 nan 0 0 0 0 1\n", "not finite"},
-      {"1305031102.5 0 0 0 nan 0 0 1\n", "not finite"},
-      {"1305031102.5 0 0 0 0 0 0 0\n", "not of unit length"},
-      {"1305031102.5 0 0 0 0.5 0.5 0.5 0.6\n", "not of unit length"},
   };
   for (const auto& [line, complaint] : bad_poses) {
     write_file(folder_ / "groundtruth.txt", "# one\n\n" + std::string(line) + pose_line(0.2));
@@ -189,15 +185,57 @@ TEST_F(Tum, refuses_a_folder_that_lacks_a_list_or_lists_nothing) {
   }
 }
 
-TEST_F(Tum, stops_at_a_missing_or_wrong_image_naming_it) {
+TEST_F(Tum, leaves_out_and_counts_poses_that_are_none) {
+  const std::pair<const char*, PoseRefusal> bad_poses[] = {
+      {"1305031102.255 0 nan 0 0 0 0 1\n", PoseRefusal::kNotFinite},
+      {"1305031102.255 0 0 0 nan 0 0 1\n", PoseRefusal::kNotFinite},
+      {"1305031102.255 0 -inf 0 0 0 0 1\n", PoseRefusal::kNotFinite},
+      {"1305031102.255 0 0 0 0 0 0 0\n", PoseRefusal::kNotUnit},
+      {"1305031102.255 0 0 0 0.5 0.5 0.5 0.6\n", PoseRefusal::kNotUnit},
+  };
+  for (const auto& [line, refusal] : bad_poses) {
+    write_file(folder_ / "groundtruth.txt", std::string(line) + poses_);
+    const auto reading = read_all(address());
+    EXPECT_EQ(reading.error, "") << line;
+    EXPECT_EQ(reading.frames.size(), 13U) << line;
+    EXPECT_EQ(reading.tally.poses_refused_by[static_cast<std::size_t>(refusal)], 1U) << line;
+    expect_true_poses(reading.frames);
+  }
+}
+
+TEST_F(Tum, leaves_out_and_counts_an_image_that_is_missing_or_no_depth_and_names_it) {
   const auto file = folder_ / "depth/1305031102.300000.png";
   test::write_png(file, test::flat(1), test::PngKind::kRgb8);
-  EXPECT_THAT(read_all(address()).error,
-              AllOf(HasSubstr("1305031102.300000.png"), HasSubstr("8-bit RGB")));
+  const auto wrong = read_all(address());
+  EXPECT_EQ(wrong.error, "");
+  EXPECT_EQ(wrong.frames.size(), 12U);
+  EXPECT_EQ(lost(wrong.tally, FrameLoss::kImageUnreadable), 1U);
+  ASSERT_EQ(wrong.events.size(), 1U);
+  EXPECT_EQ(wrong.events[0].kind, RigEventKind::kSkipped);
+  EXPECT_THAT(wrong.events[0].who, HasSubstr("1305031102.300000.png"));
+  EXPECT_THAT(wrong.events[0].what, HasSubstr("8-bit RGB"));
+
   std::filesystem::remove(file);
+  const auto missing = read_all(address());
+  EXPECT_EQ(missing.frames.size(), 12U) << missing.error;
+  EXPECT_EQ(lost(missing.tally, FrameLoss::kImageMissing), 1U);
+  expect_true_poses(missing.frames);
+}
+
+TEST_F(Tum, takes_its_camera_from_the_first_image_that_can_be_read) {
+  std::filesystem::remove(folder_ / "depth/1305031102.000000.png");
+  write_file(folder_ / "depth/1305031102.033333.png", "no image");
   const auto reading = read_all(address());
-  EXPECT_EQ(reading.frames.size(), 6U) << "0.1 to 0.267 s";
-  EXPECT_THAT(reading.error, AllOf(HasSubstr("1305031102.300000.png"), HasSubstr("no such file")));
+  EXPECT_EQ(reading.frames.size(), 13U) << reading.error;
+  EXPECT_EQ(lost(reading.tally, FrameLoss::kImageMissing), 1U);
+  EXPECT_EQ(lost(reading.tally, FrameLoss::kImageUnreadable), 1U);
+}
+
+TEST_F(Tum, without_a_single_good_image_is_an_error_that_names_the_first) {
+  for (const auto& image : std::filesystem::directory_iterator(folder_ / "depth"))
+    write_file(image.path(), "no image");
+  EXPECT_THAT(read_all(address()).error,
+              AllOf(HasSubstr("1305031102.000000.png"), HasSubstr("damaged PNG")));
 }
 
 TEST_F(Tum, takes_full_scale_for_no_reading) {

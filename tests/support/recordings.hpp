@@ -42,6 +42,7 @@ struct Reading {
   std::vector<Frame> frames;
   FrameTally tally;
   std::string error;  ///< empty if it was read to the end
+  std::vector<RigEvent> events;
 };
 
 /// Reads a source to its end and checks the laws that hold for every source.
@@ -54,6 +55,7 @@ struct Reading {
   }
   for (;;) {
     auto frame = (*source)->next();
+    for (RigEvent& event : (*source)->take_events()) reading.events.push_back(std::move(event));
     if (!frame) reading.error = frame.error().text();
     if (!frame || !*frame) break;
     if (!reading.frames.empty()) {

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "swiftlet/source/matrix_file.hpp"
 
@@ -40,13 +42,28 @@ Expected<PinholeIntrinsics> from_preset(const PinholePreset& preset, const fs::p
                                         int width, int height) {
   if (width != kPresetWidth || height != kPresetHeight) {
     return fail(ErrorCode::kUnsupported, folder.string(),
-                fmt::format("its images have {} x {} pixels, but the intrinsics of such recordings "
+                fmt::format("its images have {} x {} pixels, but the intrinsics of "
+                            "such recordings "
                             "are known for {} x {} only",
                             width, height, kPresetWidth, kPresetHeight),
                 fmt::format("add a {}: fx 0 cx / 0 fy cy / 0 0 1", kIntrinsicsFile));
   }
   return PinholeIntrinsics::create(width, height, preset.fx_px, preset.fy_px, preset.cx_px,
                                    preset.cy_px);
+}
+
+/// The first image that can be read; the error of the very first if there is
+/// none.
+Expected<DepthImage> first_readable(const std::vector<fs::path>& images,
+                                    const DepthPngFormat& format) {
+  std::optional<Error> first_fault;
+  for (const fs::path& image : images) {
+    auto depth = read_depth_png(image, format);
+    if (depth) return depth;
+    if (!first_fault) first_fault = std::move(depth).error();
+  }
+  if (first_fault) return tl::make_unexpected(*std::move(first_fault));
+  return fail(ErrorCode::kNotFound, {}, "there are no images");
 }
 
 }  // namespace
@@ -68,10 +85,11 @@ Status check_folder(const fs::path& folder, std::string_view content) {
   return Done{};
 }
 
-Expected<FolderCamera> FolderCamera::open(const fs::path& folder, const fs::path& first_image,
+Expected<FolderCamera> FolderCamera::open(const fs::path& folder,
+                                          const std::vector<fs::path>& images,
                                           const DepthPngFormat& format,
                                           const PinholePreset& preset) {
-  auto first = read_depth_png(first_image, format);
+  auto first = first_readable(images, format);
   if (!first) return forward_error(std::move(first));
 
   const int width = first->raw.width();

@@ -41,6 +41,7 @@ Expected<std::optional<Frame>> JoinedSource::next() {
     has_ended_ = true;
     if (!fits) return forward_error(std::move(fits));
     if (fault_) return tl::make_unexpected(*fault_);
+    return skipped_.end(rig_.tally());
   }
   return std::nullopt;
 }
@@ -51,6 +52,10 @@ Status JoinedSource::fill() {
     Camera& camera = cameras_[i];
     if (camera.ahead || camera.is_over) continue;
     auto depth = camera.stream->next();
+    for (SkippedImage& image : camera.stream->take_skipped()) {
+      rig_.lose(image.loss);
+      skipped_.add(std::move(image.why));
+    }
     if (!depth) return forward_error(std::move(depth));
     camera.is_over = !depth->has_value();
     camera.ahead = std::move(*depth);

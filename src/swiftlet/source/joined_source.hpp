@@ -23,12 +23,13 @@ class JoinedSource final : public FrameSource {
                const Rig::Options& rig);
 
   /// Errors, besides those of the streams: kCorruptInput if not one of the first 90 images is of
-  /// the poses' clock.
+  /// the poses' clock; that of the first bad image if no frame came out.
   [[nodiscard]] Expected<std::optional<Frame>> next() override;
   [[nodiscard]] const SourceInfo& info() const override { return info_; }
   [[nodiscard]] const FrameTally& tally() const override { return rig_.tally(); }
   [[nodiscard]] const RigFacts* facts() const override { return &rig_.facts(); }
   [[nodiscard]] const RigOptions* rig() const override { return &rig_.options(); }
+  [[nodiscard]] std::vector<RigEvent> take_events() override { return skipped_.take_events(); }
   void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
 
  private:
@@ -48,6 +49,7 @@ class JoinedSource final : public FrameSource {
   Rig rig_;
   std::function<bool()> is_unwanted_;
   ClockDomain image_clock_ = ClockDomain::kUnspecified;
+  SkippedRecords skipped_;
   std::optional<Error> fault_;  // of a stream
   bool is_played_ = false;      // the streams are at their end, or one of them has a fault
   bool has_ended_ = false;

@@ -16,10 +16,11 @@
 #include "swiftlet/source/rig_options.hpp"
 #include "swiftlet/source/tum_lists.hpp"
 
-// OpenLORIS-Scene: a robot with a D435i and a T265 in homes, offices and markets. Its released
-// folders hold no pose stream of the T265, only the ground truth of the robot's base_link; a path
-// of your own odometry can take its place. Options: images=depth|aligned_depth, poses=FILE (lines
-// as in groundtruth.txt), and those of every rig. Source: Shi et al. 2020;
+// OpenLORIS-Scene: a robot with a D435i and a T265 in homes, offices and
+// markets. Its released folders hold no pose stream of the T265, only the
+// ground truth of the robot's base_link; a path of your own odometry can take
+// its place. Options: images=depth|aligned_depth, poses=FILE (lines as in
+// groundtruth.txt), and those of every rig. Source: Shi et al. 2020;
 // lifelong-robotic-vision/openloris-scene-tools.
 
 namespace swiftlet {
@@ -28,7 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kContent =
-    "depth.txt, groundtruth.txt, sensors.yaml, trans_matrix.yaml and the images they speak of";
+    "depth.txt, groundtruth.txt, sensors.yaml, trans_matrix.yaml and the "
+    "images they speak of";
 constexpr double kBaseline_m = 0.05;  // D435i
 
 class ListedDepth final : public DepthStream {
@@ -36,22 +38,32 @@ class ListedDepth final : public DepthStream {
   ListedDepth(fs::path folder, std::vector<TumImage> images, const PinholeIntrinsics& intrinsics)
       : folder_(std::move(folder)), images_(std::move(images)), intrinsics_(intrinsics) {}
 
+  /// The next image that can be used.
   Expected<std::optional<DepthFrame>> next() override {
-    if (next_ == images_.size()) return std::nullopt;
-    const TumImage& image = images_[next_++];
-    const fs::path file = folder_ / image.file;
+    while (next_ < images_.size()) {
+      const TumImage& image = images_[next_++];
+      auto depth = read(folder_ / image.file);
+      if (depth) return DepthFrame{image.stamp, std::move(*depth), intrinsics_};
+      skipped_.push_back({loss_of_image(depth.error()), std::move(depth).error()});
+    }
+    return std::nullopt;
+  }
+  std::vector<SkippedImage> take_skipped() override { return std::exchange(skipped_, {}); }
+
+ private:
+  [[nodiscard]] Expected<DepthImage> read(const fs::path& file) const {
     auto depth = read_depth_png(file, {});
-    if (!depth) return forward_error(std::move(depth));
+    if (!depth) return depth;
     if (depth->raw.width() != intrinsics_.width() || depth->raw.height() != intrinsics_.height())
       return fail(ErrorCode::kCorruptInput, file.string(),
                   "the image has another size than sensors.yaml tells");
-    return DepthFrame{image.stamp, std::move(*depth), intrinsics_};
+    return depth;
   }
 
- private:
   fs::path folder_;
   std::vector<TumImage> images_;
   PinholeIntrinsics intrinsics_;
+  std::vector<SkippedImage> skipped_;
   std::size_t next_ = 0;
 };
 
@@ -63,8 +75,7 @@ class ListedPoses final : public PoseStream {
   Expected<std::optional<PoseSample>> next() override {
     if (next_ == poses_.size()) return std::nullopt;
     const TumPose& pose = poses_[next_++];
-    return PoseSample{pose.stamp, pose.T_native_camera.rotation(),
-                      pose.T_native_camera.translation()};
+    return PoseSample{pose.stamp, pose.R_native_camera, pose.t_native_camera_m};
   }
 
  private:
@@ -95,7 +106,8 @@ Expected<Request> parse_request(const SourceAddress& address) {
     const bool is_own = is_images || (key == "poses" && !value.empty());
     if (!is_own && (key == "rig" || !apply_rig_option(key, value, request.rig)))
       return bad_option("openloris", key, value,
-                        "images=depth|aligned_depth, poses=FILE, pairing, on_jump, pose_offset_ms");
+                        "images=depth|aligned_depth, poses=FILE, pairing, "
+                        "on_jump, pose_offset_ms");
   }
   const auto on_jump = request.rig.poses.gates.on_jump;
   request.rig.poses.gates = request.poses.empty() ? PoseGates::open() : tracker_gates();

@@ -74,6 +74,8 @@ class Rig {
   /// The images of one camera come in time order; one that does not is lost (counted).
   /// REQUIRES: depth.camera is one of the rig's.
   void push(DepthFrame depth);
+  /// An image of which there is no more than its loss.
+  void lose(FrameLoss loss) { ++tally_.of(loss); }
   /// Nothing more will come: what still waits is decided now.
   void finish() { is_finished_ = true; }
 

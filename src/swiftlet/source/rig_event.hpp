@@ -13,7 +13,7 @@
 
 namespace swiftlet {
 
-/// What happens to the instruments of a live rig. The flight goes on.
+/// What happens to the instruments of a live rig or in a recording. The flight goes on.
 enum class RigEventKind : std::uint8_t {
   kStarted,     ///< it has been found and started
   kUnplugged,   ///< it is gone
@@ -22,9 +22,11 @@ enum class RigEventKind : std::uint8_t {
   kNotStarted,  ///< it cannot be started, or is not there; tried again twice a second
   kSlowUsb,     ///< it is on a USB 2 port
   kBadPose,     ///< a pose from outside could not be read
+  kSkipped,     ///< a record of a recording is bad and was left out
 };
-inline constexpr std::array<std::string_view, 7> kRigEventNames{
-    "started", "unplugged", "stalled", "restarted", "not_started", "slow_usb", "bad_pose"};
+inline constexpr std::array<std::string_view, 8> kRigEventNames{
+    "started",     "unplugged", "stalled",  "restarted",
+    "not_started", "slow_usb",  "bad_pose", "skipped"};
 [[nodiscard]] constexpr std::string_view name_of(RigEventKind kind) {
   return kRigEventNames[static_cast<std::size_t>(kind)];
 }

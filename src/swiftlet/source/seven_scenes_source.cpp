@@ -13,13 +13,16 @@
 #include "swiftlet/source/folder_camera.hpp"
 #include "swiftlet/source/frame_source.hpp"
 #include "swiftlet/source/matrix_file.hpp"
+#include "swiftlet/source/skipped_records.hpp"
 #include "swiftlet/source/world_axes.hpp"
 
-// Microsoft 7-Scenes, and everything else that is written in its layout: one folder with
+// Microsoft 7-Scenes, and everything else that is written in its layout: one
+// folder with
 //   frame-000123.depth.png   16-bit millimetres, 0 and 65535 = no reading
 //   frame-000123.pose.txt    4 x 4 camera-to-world, optical axes, metres
 //   camera-intrinsics.txt    optional; default 585 585 320 240
-// Source: Shotton et al. 2013 and the data set's readme. World: the first camera's optical axes.
+// Source: Shotton et al. 2013 and the data set's readme. World: the first
+// camera's optical axes.
 
 namespace swiftlet {
 namespace {
@@ -42,7 +45,8 @@ struct RecordedFrame {
   fs::path depth;
   fs::path pose;
 
-  /// The layout has no clock: frames are numbered at 30 Hz, and numbers may skip.
+  /// The layout has no clock: frames are numbered at 30 Hz, and numbers may
+  /// skip.
   [[nodiscard]] Stamp stamp() const { return Stamp{number * 1'000'000'000LL / kFrameRate_hz}; }
 };
 
@@ -78,20 +82,11 @@ Expected<std::vector<RecordedFrame>> list_frames(const fs::path& folder) {
 
 /// What can be known before the first frame is delivered.
 Status check_frames(const std::vector<RecordedFrame>& frames) {
-  for (const RecordedFrame& frame : frames) {
-    std::error_code refused;
-    if (!fs::exists(frame.pose, refused)) {
-      return fail(ErrorCode::kNotFound, frame.pose.string(), "the depth image has no pose",
-                  "add it, or remove " + frame.depth.string());
-    }
-  }
   const auto twin = std::ranges::adjacent_find(frames, {}, &RecordedFrame::number);
-  if (twin != frames.end()) {
-    return fail(ErrorCode::kCorruptInput, twin->depth.string(),
-                "another file has the same frame number: " + std::next(twin)->depth.string(),
-                "remove one of them");
-  }
-  return Done{};
+  if (twin == frames.end()) return Done{};
+  return fail(ErrorCode::kCorruptInput, twin->depth.string(),
+              "another file has the same frame number: " + std::next(twin)->depth.string(),
+              "remove one of them");
 }
 
 Expected<Transform<World, Camera>> read_pose(const fs::path& path) {
@@ -100,7 +95,8 @@ Expected<Transform<World, Camera>> read_pose(const fs::path& path) {
   auto T_native_camera = Transform<NativeWorld, Camera>::from_matrix(*matrix);
   if (!T_native_camera) {
     return fail(T_native_camera.error().code, path.string(), T_native_camera.error().what,
-                "a pose is camera-to-world, R t / 0 0 0 1 in metres; correct it, or remove it "
+                "a pose is camera-to-world, R t / 0 0 0 1 in metres; correct "
+                "it, or remove it "
                 "together with its depth image");
   }
   return world_from(kAxes) * *T_native_camera;
@@ -118,26 +114,39 @@ class SevenScenesSource final : public FrameSource {
   }
 
   Expected<std::optional<Frame>> next() override {
-    if (next_ == frames_.size()) return std::nullopt;
-    auto frame = read(frames_[next_]);
-    if (!frame) {
-      next_ = frames_.size();
-      return forward_error(std::move(frame));
+    while (next_ < frames_.size()) {
+      if (auto frame = read(frames_[next_++])) {
+        ++tally_.delivered;
+        return frame;
+      }
     }
-    ++next_;
-    ++tally_.delivered;
-    return std::move(*frame);
+    return skipped_.end(tally_);
   }
 
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return tally_; }
+  std::vector<RigEvent> take_events() override { return skipped_.take_events(); }
 
  private:
-  [[nodiscard]] Expected<Frame> read(const RecordedFrame& recorded) const {
+  std::nullopt_t skip(FrameLoss loss, Error why) {
+    ++tally_.of(loss);
+    skipped_.add(std::move(why));
+    return std::nullopt;
+  }
+
+  /// nullopt, and counted, if its pose or its image is bad.
+  [[nodiscard]] std::optional<Frame> read(const RecordedFrame& recorded) {
     auto T_world_camera = read_pose(recorded.pose);
-    if (!T_world_camera) return forward_error(std::move(T_world_camera));
+    if (!T_world_camera) {
+      const bool is_missing = T_world_camera.error().code == ErrorCode::kNotFound;
+      return skip(is_missing ? FrameLoss::kNoPose : FrameLoss::kPoseRefused,
+                  std::move(T_world_camera).error());
+    }
     auto seen = camera_.read(recorded.depth, recorded.stamp());
-    if (!seen) return forward_error(std::move(seen));
+    if (!seen) {
+      const FrameLoss loss = loss_of_image(seen.error());
+      return skip(loss, std::move(seen).error());
+    }
     return Frame{seen->stamp, std::move(seen->depth), seen->intrinsics, *T_world_camera};
   }
 
@@ -145,6 +154,7 @@ class SevenScenesSource final : public FrameSource {
   FolderCamera camera_;
   SourceInfo info_;
   FrameTally tally_;
+  SkippedRecords skipped_;
   std::size_t next_ = 0;
 };
 
@@ -156,7 +166,9 @@ Expected<FrameSourcePtr> open_seven_scenes_source(std::string_view folder) {
   auto frames = list_frames(folder);
   if (!frames) return forward_error(std::move(frames));
   if (auto usable = check_frames(*frames); !usable) return forward_error(std::move(usable));
-  auto camera = FolderCamera::open(folder, frames->front().depth, kFormat, kKinect);
+  std::vector<fs::path> images;
+  for (const RecordedFrame& frame : *frames) images.push_back(frame.depth);
+  auto camera = FolderCamera::open(folder, images, kFormat, kKinect);
   if (!camera) return forward_error(std::move(camera));
   return std::make_unique<SevenScenesSource>(folder, std::move(*frames), *camera);
 }

@@ -5,10 +5,12 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/frame/pose_sample.hpp"
+#include "swiftlet/source/skipped_records.hpp"
 
 namespace swiftlet {
 
@@ -18,6 +20,8 @@ class DepthStream {
   virtual ~DepthStream() = default;
   /// nullopt at the end. After an error the stream is at its end.
   [[nodiscard]] virtual Expected<std::optional<DepthFrame>> next() = 0;
+  /// Images that could not be used and were left out since the last call.
+  [[nodiscard]] virtual std::vector<SkippedImage> take_skipped() { return {}; }
 };
 
 /// The poses of a recording, in our axes, in the order of the recording.

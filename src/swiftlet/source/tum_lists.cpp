@@ -46,9 +46,7 @@ Expected<TumPose> parse_pose(Words words) {
     value[i] = *number;
   }
   const auto [tx, ty, tz, qx, qy, qz, qw] = value;
-  auto T = Transform<NativeWorld, Camera>::from(Eigen::Quaterniond(qw, qx, qy, qz), {tx, ty, tz});
-  if (!T) return forward_error(std::move(T));
-  return TumPose{*stamp, *T};
+  return TumPose{*stamp, Eigen::Quaterniond(qw, qx, qy, qz), {tx, ty, tz}};
 }
 
 template <class Row>

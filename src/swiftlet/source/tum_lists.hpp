@@ -3,13 +3,13 @@
 
 #pragma once
 
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "swiftlet/base/frame_of.hpp"
+#include "swiftlet/base/expected.hpp"
 #include "swiftlet/base/time.hpp"
-#include "swiftlet/source/world_axes.hpp"
 
 namespace swiftlet {
 
@@ -19,16 +19,19 @@ struct TumImage {
   std::filesystem::path file;  ///< as listed, relative to the folder
 };
 
-/// A line of groundtruth.txt: `timestamp tx ty tz qx qy qz qw` (metres, scalar last), the optical
-/// frame of the camera in the motion-capture world.
+/// A line of groundtruth.txt: `timestamp tx ty tz qx qy qz qw` (metres, scalar
+/// last), the optical frame of the camera in the motion-capture world. Nothing
+/// in it is trusted: it may be NaN, or no rotation.
 struct TumPose {
   Stamp stamp;
-  Transform<NativeWorld, Camera> T_native_camera;
+  Eigen::Quaterniond R_native_camera;
+  Eigen::Vector3d t_native_camera_m;
 };
 
 /// Read a list file, sorted by time; equal times keep the order of the file.
-/// Errors: kNotFound, kIo; kCorruptInput naming file and line where a line is malformed or a pose
-/// is not finite or not a unit quaternion, or if there is no line at all.
+/// Errors: kNotFound, kIo; kCorruptInput naming file and line where a line is
+/// malformed, or if there is no line at all. Values of a pose may be NaN or
+/// infinite: the gates count them.
 [[nodiscard]] Expected<std::vector<TumImage>> read_tum_images(const std::filesystem::path& list);
 [[nodiscard]] Expected<std::vector<TumPose>> read_tum_poses(const std::filesystem::path& list);
 

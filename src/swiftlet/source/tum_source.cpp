@@ -12,14 +12,16 @@
 #include "swiftlet/source/folder_camera.hpp"
 #include "swiftlet/source/frame_source.hpp"
 #include "swiftlet/source/rig.hpp"
+#include "swiftlet/source/skipped_records.hpp"
 #include "swiftlet/source/tum_lists.hpp"
 #include "swiftlet/source/world_axes.hpp"
 
-// TUM RGB-D: depth.txt lists 16-bit images (5000 steps a metre, 0 = no reading), groundtruth.txt
-// the path of the camera; each with its own clock ticks. The pose of an image is interpolated at
-// the image's own time, not taken from the nearest neighbour.
-// Source: Sturm et al. 2012 and the data set's pages "File Formats", "Intrinsic Camera
-// Calibration".
+// TUM RGB-D: depth.txt lists 16-bit images (5000 steps a metre, 0 = no
+// reading), groundtruth.txt the path of the camera; each with its own clock
+// ticks. The pose of an image is interpolated at the image's own time, not
+// taken from the nearest neighbour. Images and poses that are bad are left out
+// and counted. Source: Sturm et al. 2012 and the data set's pages "File
+// Formats", "Intrinsic Camera Calibration".
 
 namespace swiftlet {
 namespace {
@@ -63,7 +65,8 @@ Status check_overlap(const fs::path& folder, const std::vector<TumImage>& images
   if (from <= until) return Done{};
   const auto s = [](Stamp stamp) { return seconds(Nanoseconds(stamp.ns)); };
   return fail(ErrorCode::kCorruptInput, folder.string(),
-              fmt::format("depth ({:.3f} to {:.3f} s) and ground truth ({:.3f} to {:.3f} s) do not "
+              fmt::format("depth ({:.3f} to {:.3f} s) and ground truth ({:.3f} "
+                          "to {:.3f} s) do not "
                           "overlap in time",
                           s(images.front().stamp), s(images.back().stamp), s(poses.front().stamp),
                           s(poses.back().stamp)),
@@ -91,30 +94,43 @@ class TumSource final : public FrameSource {
       if (auto frame = rig_.pop()) return frame;
       const TumImage& image = images_[next_image_++];
       auto depth = camera_.read(folder_ / image.file, image.stamp);
-      if (!depth) {
-        next_image_ = images_.size();
-        return forward_error(std::move(depth));
+      if (depth) {
+        push_poses_until(image.stamp);
+        rig_.push(std::move(*depth));
+      } else {
+        rig_.lose(loss_of_image(depth.error()));
+        skipped_.add(std::move(depth).error());
       }
-      push_poses_until(image.stamp);
-      rig_.push(std::move(*depth));
     }
     rig_.finish();
-    return rig_.pop();
+    if (auto frame = rig_.pop()) return frame;
+    return skipped_.end(rig_.tally());
   }
 
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return rig_.tally(); }
   const RigFacts* facts() const override { return &rig_.facts(); }
   const RigOptions* rig() const override { return &rig_.options(); }
+  std::vector<RigEvent> take_events() override { return skipped_.take_events(); }
 
  private:
-  /// As a live rig would see it: every pose up to the first that is not before the image.
+  [[nodiscard]] PoseSample in_our_world(const TumPose& pose) const {
+    const auto T_native_camera =
+        Transform<NativeWorld, Camera>::from(pose.R_native_camera, pose.t_native_camera_m);
+    // What is no pose goes on as it is: the gates say what is wrong with it,
+    // and count it.
+    if (!T_native_camera) return {pose.stamp, pose.R_native_camera, pose.t_native_camera_m};
+    const Transform<World, Body> T_world_body =
+        world_from(kAxes) * *T_native_camera * forward_looking_camera().inverse();
+    return {pose.stamp, T_world_body.rotation(), T_world_body.translation()};
+  }
+
+  /// As a live rig would see it: every pose up to the first that is not before
+  /// the image.
   void push_poses_until(Stamp stamp) {
     while (next_pose_ < poses_.size()) {
       const TumPose& pose = poses_[next_pose_++];
-      const Transform<World, Body> T_world_body =
-          world_from(kAxes) * pose.T_native_camera * forward_looking_camera().inverse();
-      rig_.push(PoseSample{pose.stamp, T_world_body.rotation(), T_world_body.translation()});
+      rig_.push(in_our_world(pose));
       if (pose.stamp >= stamp) return;
     }
     rig_.finish();
@@ -126,6 +142,7 @@ class TumSource final : public FrameSource {
   FolderCamera camera_;
   Rig rig_;
   SourceInfo info_;
+  SkippedRecords skipped_;
   std::size_t next_image_ = 0;
   std::size_t next_pose_ = 0;
 };
@@ -142,8 +159,9 @@ Expected<FrameSourcePtr> open_tum_source(std::string_view folder_name) {
   if (!poses) return forward_error(std::move(poses));
   if (auto usable = check_overlap(folder, *images, *poses); !usable)
     return forward_error(std::move(usable));
-  auto camera =
-      FolderCamera::open(folder, folder / images->front().file, kFormat, preset_for(folder));
+  std::vector<fs::path> files;
+  for (const TumImage& image : *images) files.push_back(folder / image.file);
+  auto camera = FolderCamera::open(folder, files, kFormat, preset_for(folder));
   if (!camera) return forward_error(std::move(camera));
   return std::make_unique<TumSource>(folder_name, std::move(*images), std::move(*poses), *camera);
 }
