@@ -32,6 +32,7 @@ DoctorExam healthy() {
        {"Intel RealSense T265", "S2", "0.2.0.951", "0.2.0.951", "2.1", {}, true}}};
   exam.rig = intel_t265_d435_rig().rig;
   exam.is_t265 = true;
+  exam.intrinsics = IntrinsicsNote{IntrinsicsOrigin::kSdk, {}};
   exam.facts.emplace();
   exam.facts->cameras.resize(1);
   for (int t_ms = 0; t_ms <= 2000; t_ms += 5) {
@@ -90,6 +91,10 @@ const Illness kIllnesses[]{
      [](DoctorExam& e) {
        e.fault = Error{ErrorCode::kIo, "x", "is gone", ""};
      }},
+    {"intrinsics", Severity::kWarning, [](DoctorExam& e) { e.intrinsics->origin = {}; }},
+    {"intrinsics", Severity::kNote,
+     [](DoctorExam& e) { e.intrinsics->origin = IntrinsicsOrigin::kKnownDataset; }},
+    {"depth_units", Severity::kWarning, [](DoctorExam& e) { e.depth_doubt = "all is near"; }},
     {"mounts", Severity::kFault,
      [](DoctorExam& e) {
        e.rig.cameras[0].T_body_camera =

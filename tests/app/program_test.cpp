@@ -186,6 +186,32 @@ TEST_F(Program, frames_without_a_reading_are_counted_and_told) {
   EXPECT_EQ(summary.at("dropped"), (json{{"no_readings", 1}}));
 }
 
+TEST_F(Program, tells_where_the_intrinsics_came_from_in_summary_map_and_doctor) {
+  const std::string file = "rec/camera-intrinsics.txt";
+  EXPECT_THAT(map_to("a.swl").out, HasSubstr("intrinsics file: " + file));
+  EXPECT_THAT(swiftlet({"info", "a.swl"}).out, HasSubstr("intrinsics file: " + file));
+  EXPECT_THAT(swiftlet({"doctor", "7scenes:rec"}).out, HasSubstr("file: " + file));
+  const json summary =
+      json::parse(swiftlet({"map", "7scenes:rec?intrinsics=20,20,11.5,7.5", "--json"}).out);
+  EXPECT_EQ(summary.at("intrinsics"), (json{{"from", "option"}, {"detail", "20,20,11.5,7.5"}}));
+}
+
+TEST_F(Program, doubts_a_depth_unit_that_nobody_told_and_through_which_all_is_near) {
+  const auto doubt_of = [&](const std::string& source) {
+    return json::parse(swiftlet({"map", source, "--json", "--overwrite"}).out)
+        .at("depth_doubt")
+        .get<std::string>();
+  };
+  EXPECT_EQ(doubt_of("7scenes:rec"), "") << "a wall at 2 m";
+  for (const int number : {0, 1, 2}) write_seven_scenes_frame(folder_ / "rec", number, flat(450));
+  EXPECT_THAT(doubt_of("7scenes:rec"), HasSubstr("nearer than 0.45 m"));
+  EXPECT_THAT(swiftlet({"doctor", "7scenes:rec"}).out, HasSubstr("nearer than 0.45 m"));
+  EXPECT_EQ(doubt_of("7scenes:rec?depth_unit_m=0.001"), "") << "it was told";
+  for (const int number : {0, 1, 2}) write_seven_scenes_frame(folder_ / "rec", number, flat(30000));
+  write_seven_scenes_frame(folder_ / "rec", 3, flat(2000));
+  EXPECT_THAT(doubt_of("7scenes:rec"), HasSubstr("farther than 10 m"));
+}
+
 TEST_F(Program, does_not_overwrite_a_map_unless_told_to) {
   ASSERT_EQ(map_to("a.swl").exit_code, 0);
   const std::string before = content_of(folder_ / "a.swl");

@@ -177,5 +177,14 @@ TEST_F(OpenLoris, without_a_single_good_image_is_an_error) {
   EXPECT_THAT(read_all(address()).error, HasSubstr("damaged PNG"));
 }
 
+TEST_F(OpenLoris, takes_depth_unit_and_time_offset_and_says_who_told_its_intrinsics) {
+  const auto reading = read_all(address() + "?depth_unit_m=0.0001&time_offset_ms=-50");
+  ASSERT_EQ(reading.frames.size(), 5U) << reading.error;
+  EXPECT_FLOAT_EQ(reading.frames[0].depth.depth_m(0, 0), 0.15F);
+  EXPECT_EQ(reading.frames[0].stamp.ns, 1560004885'050'000'000);
+  const auto source = open_source(address());
+  EXPECT_EQ(text_of((*source)->info().intrinsics), "file: " + (folder_ / "sensors.yaml").string());
+}
+
 }  // namespace
 }  // namespace swiftlet

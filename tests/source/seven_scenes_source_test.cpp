@@ -85,15 +85,40 @@ TEST_F(SevenScenes, delivers_frames_without_a_single_reading) {
   EXPECT_EQ(readings_in(2), 24 * 16);
 }
 
-TEST_F(SevenScenes, uses_the_kinect_preset_for_640_x_480_only) {
+TEST_F(SevenScenes, of_the_data_set_itself_needs_no_intrinsics) {
+  const auto sequence = folder_ / "seq-07";
+  std::filesystem::create_directory(sequence);
+  for (const int number : {0, 1})
+    test::write_seven_scenes_frame(sequence, number, Image<std::uint16_t>(640, 480, 1000));
+  const std::string address = "7scenes:" + sequence.string();
+  EXPECT_THAT(read_all(address).error, HasSubstr("nobody tells the intrinsics"))
+      << "others have numbered folders, too";
+  write_png(sequence / "frame-000000.color.png", flat(1), test::PngKind::kRgb8);
+  const auto reading = read_all(address);
+  ASSERT_EQ(reading.frames.size(), 2U) << reading.error;
+  EXPECT_EQ(reading.frames[0].intrinsics, PinholeIntrinsics::create(640, 480, 585, 585, 320, 240));
+  EXPECT_EQ((*open_source(address))->info().intrinsics.origin, IntrinsicsOrigin::kKnownDataset);
+}
+
+TEST_F(SevenScenes, of_anybody_else_demands_intrinsics_and_says_how_to_give_them) {
   std::filesystem::remove(folder_ / "camera-intrinsics.txt");
   EXPECT_THAT(read_all(address()).error,
               AllOf(HasSubstr("24 x 16"), HasSubstr("camera-intrinsics.txt")));
   for (const int number : {0, 1, 2})
     test::write_seven_scenes_frame(folder_.path(), number, Image<std::uint16_t>(640, 480, 1000));
-  const auto reading = read_all(address());
+  EXPECT_THAT(read_all(address()).error,
+              AllOf(HasSubstr("640 x 480"), HasSubstr("?intrinsics=fx,fy,cx,cy")));
+  const auto reading = read_all(address() + "?intrinsics=585,585,320,240");
   ASSERT_EQ(reading.frames.size(), 3U) << reading.error;
   EXPECT_EQ(reading.frames[0].intrinsics, PinholeIntrinsics::create(640, 480, 585, 585, 320, 240));
+}
+
+TEST_F(SevenScenes, takes_the_depth_unit_and_the_up_axis_from_its_address_but_no_time) {
+  const auto reading = read_all(address() + "?depth_unit_m=0.0002&up=+z");
+  ASSERT_EQ(reading.frames.size(), 3U) << reading.error;
+  EXPECT_FLOAT_EQ(reading.frames[0].depth.depth_m(3, 3), 0.4F);
+  EXPECT_TRUE(reading.frames[0].T_world_camera.rotation().isApprox(Eigen::Quaterniond::Identity()));
+  EXPECT_THAT(read_all(address() + "?time_offset_ms=3").error, HasSubstr("cannot be meant"));
 }
 
 TEST_F(SevenScenes, given_a_whole_scene_asks_for_one_of_its_sequences) {

@@ -42,6 +42,7 @@ double range_of(const std::string& address, const WorkloadOptions& options) {
 Expected<Workload> read_workload(FrameSource& source, const WorkloadOptions& options) {
   const SourceInfo& info = source.info();
   Workload made{.name = info.uri,
+                .intrinsics = text_of(info.intrinsics),
                 .frames = {},
                 .baseline_m = info.baseline_m.value_or(kD435Baseline_m),
                 .max_range_m = range_of(info.uri, options)};
@@ -71,9 +72,9 @@ std::string workload_text(const Workload& w) {
   const DepthImage& depth = w.frames.front().depth;
   return fmt::format(
       "{}: {} of {} frames, spread evenly over the flight, the first {} to warm up; {} x {} "
-      "pixels, range {} m\n",
+      "pixels, range {} m; intrinsics {}\n",
       w.name, w.frames.size(), w.available, w.warm_up, depth.raw.width(), depth.raw.height(),
-      w.max_range_m);
+      w.max_range_m, w.intrinsics);
 }
 
 }  // namespace swiftlet::app

@@ -24,6 +24,7 @@ struct WorkloadOptions {
 /// taken.
 struct Workload {
   std::string name;
+  std::string intrinsics{};  ///< where those of the cameras came from
   std::vector<Frame> frames;
   std::size_t warm_up = 0;    ///< the first of the frames, not measured
   std::size_t available = 0;  ///< frames of the whole flight

@@ -10,6 +10,7 @@
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/config_flags.hpp"
+#include "swiftlet/app/depth_doubt.hpp"
 #include "swiftlet/app/events.hpp"
 #include "swiftlet/app/flight_watch.hpp"
 #include "swiftlet/app/interrupt.hpp"
@@ -71,6 +72,7 @@ SessionOptions session_options(const MapOptions& options, const SourceInfo& info
   session.meta = {{"config", config_to_yaml(config)},
                   {"source", info.uri},
                   {"native_up_axis", info.native_up_axis},
+                  {"intrinsics", text_of(info.intrinsics)},
                   {"program_version", SWIFTLET_VERSION},
                   {"logodds_per_step", fmt::format("{}", config.integrate.logodds_per_step)},
                   {"created", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}};
@@ -86,6 +88,7 @@ Status fly(FrameSource& source, MappingSession& session, const MapOptions& optio
     return interrupt.is_interrupted();
   });
   MappingSummary& summary = session.summary();
+  DepthDoubt doubt(source.info().assumed_depth_unit_m);
   Status outcome = Done{};
   for (std::size_t done = 0; options.frames == 0 || done < options.frames;) {
     summary.was_interrupted = interrupt.is_interrupted();
@@ -101,12 +104,14 @@ Status fly(FrameSource& source, MappingSession& session, const MapOptions& optio
       break;
     }
     if (watch != nullptr) watch->note(source.tally());
+    doubt.note((*frame)->depth);
     outcome = session.integrate(**frame);
     if (!outcome) break;
     progress.update(++done);
   }
   summary.elapsed_s = progress.elapsed_s();
   summary.source_tally = source.tally();
+  summary.depth_doubt = doubt.text();
   if (watch != nullptr) watch->note(summary.source_tally);
   progress.finish();
   return outcome;
@@ -167,6 +172,7 @@ Faults map(const MapOptions& options) {
   auto session = MappingSession::create(config->mapper, how);
   if (!session) return fault_of(std::move(session));
   (*session)->summary().source = info.uri;
+  (*session)->summary().intrinsics = info.intrinsics;
   const InterruptGuard interrupt;  // until the map is saved
   Status flight = fly(**source, **session, options, interrupt, watch->get());
   if (*watch) (*watch)->finish();
@@ -225,6 +231,7 @@ Action declare_map(CLI::App& parser) {
       "Examples:\n"
       "  swiftlet map 7scenes:redkitchen/seq-01 -o kitchen.swl\n"
       "  swiftlet map tum:freiburg1_room --set map.voxel_m=0.05 --set depth.downsample=4\n"
+      "  swiftlet map 'tum:flight?depth_unit_m=0.001&intrinsics=615,615,320,240'\n"
       "  swiftlet map sim:apartment --config flight.yaml --overwrite\n"
       "  swiftlet map bag:d435.bag,t265.bag --rig my_rig.yaml\n"
       "  swiftlet map sim:apartment --view --stay --realtime     then open the address it tells\n"

@@ -11,6 +11,7 @@
   X(usb, "every depth camera is on a USB 3 port")                          \
   X(profile, "every depth camera offers 848x480 at 30 Hz")                 \
   X(reading, "the source can be opened and read")                          \
+  X(intrinsics, "somebody tells the intrinsics of the cameras")            \
   X(mounts, "rotation, distance and direction of each camera's mount")     \
   X(clocks, "images and poses are stamped by one clock")                   \
   X(depth_rate, "images come evenly and in order")                         \

@@ -49,8 +49,10 @@ struct DoctorExam {
   std::optional<RigFacts> facts{};
   RigOptions rig{};
   FrameTally tally{};
-  std::vector<ReadingFacts> readings{};  ///< by camera of the rig
-  bool is_t265 = false;                  ///< the poses are a T265's
+  std::vector<ReadingFacts> readings{};        ///< by camera of the rig
+  bool is_t265 = false;                        ///< the poses are a T265's
+  std::optional<IntrinsicsNote> intrinsics{};  ///< where those of the cameras came from
+  std::string depth_doubt{};                   ///< why the unit of depth looks wrong
 };
 
 /// Appends what it finds; nothing where there is nothing to examine.

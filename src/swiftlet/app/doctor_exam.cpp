@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "swiftlet/app/depth_doubt.hpp"
 #include "swiftlet/app/progress.hpp"
 #include "swiftlet/source/sources.hpp"
 
@@ -35,6 +36,8 @@ void examine_source(FrameSource& source, Nanoseconds duration, const std::functi
   source.stop_when(
       [&] { return stop() || (is_timed && HostTime::clock::now() - alive_at > duration); });
   if (source.rig() != nullptr) exam.rig = *source.rig();
+  exam.intrinsics = source.info().intrinsics;
+  DepthDoubt doubt(source.info().assumed_depth_unit_m);
   exam.is_t265 = source.info().native_up_axis == "+y";
   exam.readings.resize(exam.rig.cameras.size());
   Progress progress(std::nullopt);
@@ -46,12 +49,14 @@ void examine_source(FrameSource& source, Nanoseconds duration, const std::functi
     first = first.value_or((*frame)->stamp);
     alive_at = HostTime::clock::now();
     note_readings(**frame, exam.readings[(*frame)->camera]);
+    doubt.note((*frame)->depth);
     progress.update(++done);
     if (is_timed && (*frame)->stamp - *first >= duration) break;
   }
   progress.finish();
   if (source.facts() != nullptr) exam.facts = *source.facts();
   exam.tally = source.tally();
+  exam.depth_doubt = doubt.text();
 }
 
 void examine_system(DoctorExam& exam) {

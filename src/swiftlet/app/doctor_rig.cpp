@@ -46,6 +46,23 @@ void check_reading(const DoctorExam& exam, std::vector<Finding>& findings) {
        fault.remedy.empty() ? "check the address, the cable or the file" : fault.remedy});
 }
 
+void check_intrinsics(const DoctorExam& exam, std::vector<Finding>& findings) {
+  if (!exam.intrinsics) return;
+  const std::string told = text_of(*exam.intrinsics);
+  switch (exam.intrinsics->origin) {
+    case IntrinsicsOrigin::kUntold:
+      findings.push_back({Severity::kWarning, "the source does not say where they come from",
+                          "see that they are those of the camera: wrong ones bend the map"});
+      break;
+    case IntrinsicsOrigin::kKnownDataset:
+      findings.push_back({Severity::kNote, told,
+                          "if another camera has recorded this, add a camera-intrinsics.txt"});
+      break;
+    default:
+      findings.push_back({Severity::kGood, told});
+  }
+}
+
 void check_mounts(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.facts) return;
   for (std::size_t i = 0; i < exam.rig.cameras.size(); ++i) {
@@ -142,6 +159,10 @@ void check_depth_units(const DoctorExam& exam, std::vector<Finding>& findings) {
          fmt::format("{}: {:g} m a step{}", exam.rig.cameras[i].title(), camera.unit_m, seen),
          is_odd ? "that is no room: check Depth Units (D435: 0.001, D405: 0.0001) or depth_unit_m"
                 : ""});
+  }
+  if (!exam.depth_doubt.empty()) {
+    findings.push_back({Severity::kWarning, exam.depth_doubt,
+                        "say it behind the folder, as in ?depth_unit_m=0.001"});
   }
 }
 

@@ -29,6 +29,7 @@ Expected<ScoreReport> score_recording(const ScoreJob& job) {
   auto entrants = make_entrants(job);
   if (!entrants) return forward_error(std::move(entrants));
   ScoreReport report{.source = job.source, .voxel_m = job.config.map.voxel_m, .maps = {}};
+  report.intrinsics = text_of((*source)->info().intrinsics);
   std::vector<eval::SightLine> left_out;
   std::optional<Stamp> first;
   Progress progress((*source)->info().frame_count);

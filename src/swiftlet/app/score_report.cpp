@@ -78,9 +78,10 @@ void add_value(ScoreReport& report, std::size_t map, const std::string& score,
 std::string score_text(const ScoreReport& report) {
   std::size_t width = 0;
   for (const ScoreRow& row : report.rows) width = std::max(width, row.meaning.name.size());
-  std::string text =
-      fmt::format("{}: {} frames, {:.1f} s of flight; cells of {} m\n\n{:{}}  better",
-                  report.source, report.frames, report.flight_s, report.voxel_m, "", width);
+  std::string text = fmt::format("{}: {} frames, {:.1f} s of flight; cells of {} m\n",
+                                 report.source, report.frames, report.flight_s, report.voxel_m);
+  if (!report.intrinsics.empty()) text += fmt::format("intrinsics {}\n", report.intrinsics);
+  text += fmt::format("\n{:{}}  better", "", width);
   for (const std::string& map : report.maps) text += fmt::format(" {:>14}", map);
   text += "\n";
   std::string last;
@@ -124,13 +125,10 @@ nlohmann::ordered_json score_json(const ScoreReport& report) {
     }
     free_but_solid[report.maps[i]] = std::move(cells);
   }
-  return {{"source", report.source},
-          {"voxel_m", report.voxel_m},
-          {"frames", report.frames},
-          {"flight_s", report.flight_s},
-          {"maps", report.maps},
-          {"scores", std::move(rows)},
-          {"solid_cells_called_free", std::move(free_but_solid)}};
+  return {{"source", report.source},     {"intrinsics", report.intrinsics},
+          {"voxel_m", report.voxel_m},   {"frames", report.frames},
+          {"flight_s", report.flight_s}, {"maps", report.maps},
+          {"scores", std::move(rows)},   {"solid_cells_called_free", std::move(free_but_solid)}};
 }
 
 }  // namespace swiftlet::app

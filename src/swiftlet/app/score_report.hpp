@@ -28,6 +28,7 @@ struct ScoreReport {
   std::vector<std::string> maps;
   std::vector<ScoreRow> rows{};
   std::vector<std::vector<eval::Finding>> findings{};  ///< of each map: solid cells called free
+  std::string intrinsics{};  ///< of recordings: where those of the camera came from
 };
 
 /// Books a value of the map of that number; rows appear in the order of their first value.

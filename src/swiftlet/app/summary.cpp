@@ -143,6 +143,8 @@ std::string summary_text(const MappingSummary& s) {
                       s.integrated(), s.elapsed_s, rate(s.integrated(), s.elapsed_s),
                       rate(s.integrated(), mapper_s));
   text += dropped_text(s.dropped());
+  text += fmt::format("  intrinsics {}\n", text_of(s.intrinsics));
+  if (!s.depth_doubt.empty()) text += fmt::format("  doubt      {}\n", s.depth_doubt);
   text += poses_text(s.source_tally, s.restarts);
   text += events_text(s.source_tally.events);
   if (s.late_frames > 0) {
@@ -163,6 +165,8 @@ std::string summary_text(const MappingSummary& s) {
 std::string summary_json(const MappingSummary& s) {
   nlohmann::ordered_json json{
       {"source", s.source},
+      {"intrinsics", {{"from", name_of(s.intrinsics.origin)}, {"detail", s.intrinsics.detail}}},
+      {"depth_doubt", s.depth_doubt},
       {"frames", s.integrated()},
       {"dropped", s.dropped()},
       {"poses_refused", s.source_tally.poses_refused},

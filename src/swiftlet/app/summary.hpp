@@ -27,6 +27,8 @@ struct SavedFile {
 /// What a mapping run did.
 struct MappingSummary {
   std::string source;
+  IntrinsicsNote intrinsics;  ///< where those of its cameras came from
+  std::string depth_doubt;    ///< why its unit of depth looks wrong; empty: it does not
   FrameTally source_tally;
   std::array<std::size_t, kFrameVerdictNames.size()> verdicts{};
   double elapsed_s = 0.0;

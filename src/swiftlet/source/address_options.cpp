@@ -6,11 +6,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 namespace swiftlet {
 
-Expected<SourceAddress> parse_address(std::string_view rest, std::string_view kind) {
-  const std::size_t mark = std::min(rest.find('?'), rest.size());
+namespace {
+
+/// Splits behind the first `mark` bytes.
+Expected<SourceAddress> split_at(std::string_view rest, std::size_t mark, std::string_view kind) {
   SourceAddress address{std::string(rest.substr(0, mark)), {}};
   std::string_view query = rest.substr(std::min(mark + 1, rest.size()));
   while (!query.empty()) {
@@ -29,6 +33,22 @@ Expected<SourceAddress> parse_address(std::string_view rest, std::string_view ki
     address.options.emplace_back(key, std::string(pair.substr(equals + 1)));
   }
   return address;
+}
+
+}  // namespace
+
+Expected<SourceAddress> parse_address(std::string_view rest, std::string_view kind) {
+  return split_at(rest, std::min(rest.find('?'), rest.size()), kind);
+}
+
+Expected<SourceAddress> parse_place_address(std::string_view rest, std::string_view kind) {
+  std::error_code unreadable;
+  for (std::size_t mark = rest.size(); mark != std::string_view::npos && mark > 0;
+       mark = rest.rfind('?', mark - 1)) {
+    if (std::filesystem::exists(rest.substr(0, mark), unreadable))
+      return split_at(rest, mark, kind);
+  }
+  return parse_address(rest, kind);
 }
 
 std::vector<std::string> split_list(std::string_view text) {

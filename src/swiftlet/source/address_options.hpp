@@ -21,6 +21,11 @@ struct SourceAddress {
 /// Errors: kUsage for an option without "=" or given twice.
 [[nodiscard]] Expected<SourceAddress> parse_address(std::string_view rest, std::string_view kind);
 
+/// The same where the place is a file or folder, whose name may hold a '?': what exists is the
+/// place, the longest such name if there are several. Errors: those of parse_address().
+[[nodiscard]] Expected<SourceAddress> parse_place_address(std::string_view rest,
+                                                          std::string_view kind);
+
 /// The parts of a list "a,b,c"; one empty part of an empty text.
 [[nodiscard]] std::vector<std::string> split_list(std::string_view text);
 

@@ -137,6 +137,7 @@ Expected<FrameSourcePtr> open_bag_source(std::string_view rest) {
     if (!depth) return forward_error(std::move(depth));
     if (i == 0) {
       info.baseline_m = depth->baseline_m;
+      info.intrinsics = {IntrinsicsOrigin::kCameraInfo, "of " + depth->topic};
       if (auto mounted = find_mount(*depth, *poses, *request); !mounted)
         return forward_error(std::move(mounted));
     }

@@ -5,10 +5,12 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <array>
 #include <string>
 #include <utility>
 
+#include "swiftlet/base/number_text.hpp"
+#include "swiftlet/source/address_options.hpp"
 #include "swiftlet/source/matrix_file.hpp"
 
 namespace swiftlet {
@@ -16,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPresetWidth = 640;
-constexpr int kPresetHeight = 480;
+constexpr int kKnownWidth = 640;
+constexpr int kKnownHeight = 480;
 constexpr std::string_view kIntrinsicsFile = "camera-intrinsics.txt";
 
 Expected<PinholeIntrinsics> from_file(const fs::path& path, int width, int height) {
@@ -38,22 +40,67 @@ Expected<PinholeIntrinsics> from_file(const fs::path& path, int width, int heigh
   return intrinsics;
 }
 
-Expected<PinholeIntrinsics> from_preset(const PinholePreset& preset, const fs::path& folder,
-                                        int width, int height) {
-  if (width != kPresetWidth || height != kPresetHeight) {
-    return fail(ErrorCode::kUnsupported, folder.string(),
-                fmt::format("its images have {} x {} pixels, but the intrinsics of "
-                            "such recordings "
-                            "are known for {} x {} only",
-                            width, height, kPresetWidth, kPresetHeight),
-                fmt::format("add a {}: fx 0 cx / 0 fy cy / 0 0 1", kIntrinsicsFile));
+/// nullopt if the text is no list of four; then it names a file.
+std::optional<Expected<PinholeIntrinsics>> from_numbers(const std::string& text, int width,
+                                                        int height) {
+  const std::vector<std::string> parts = split_list(text);
+  std::array<double, 4> value{};
+  if (parts.size() != value.size()) return std::nullopt;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const auto number = parse_number(parts[i]);
+    if (!number) return std::nullopt;
+    value[i] = *number;
   }
-  return PinholeIntrinsics::create(width, height, preset.fx_px, preset.fy_px, preset.cx_px,
-                                   preset.cy_px);
+  auto intrinsics =
+      PinholeIntrinsics::create(width, height, value[0], value[1], value[2], value[3]);
+  if (!intrinsics) intrinsics.error().where = "intrinsics=" + text;
+  return intrinsics;
 }
 
-/// The first image that can be read; the error of the very first if there is
-/// none.
+struct NotedIntrinsics {
+  PinholeIntrinsics intrinsics;
+  IntrinsicsNote note;
+};
+
+Expected<NotedIntrinsics> noted(Expected<PinholeIntrinsics>&& intrinsics, IntrinsicsOrigin origin,
+                                std::string detail) {
+  if (!intrinsics) return forward_error(std::move(intrinsics));
+  return NotedIntrinsics{*intrinsics, {origin, std::move(detail)}};
+}
+
+tl::unexpected<Error> nobody_tells(const FolderCameraRequest& request, int width, int height) {
+  const std::string dataset = request.known
+                                  ? fmt::format("; those of {} are known for {} x {} only",
+                                                request.known->name, kKnownWidth, kKnownHeight)
+                                  : "";
+  return fail(ErrorCode::kNotFound, request.folder.string(),
+              fmt::format("nobody tells the intrinsics of its camera ({} x {} pixels{})", width,
+                          height, dataset),
+              fmt::format("add a {} (fx 0 cx / 0 fy cy / 0 0 1, in pixels), or write them behind "
+                          "the folder: ?intrinsics=fx,fy,cx,cy",
+                          kIntrinsicsFile));
+}
+
+Expected<NotedIntrinsics> intrinsics_of(const FolderCameraRequest& request, int width, int height) {
+  if (!request.intrinsics.empty()) {
+    if (auto given = from_numbers(request.intrinsics, width, height))
+      return noted(std::move(*given), IntrinsicsOrigin::kOption, request.intrinsics);
+    return noted(from_file(request.intrinsics, width, height), IntrinsicsOrigin::kFile,
+                 request.intrinsics);
+  }
+  const fs::path file = request.folder / kIntrinsicsFile;
+  std::error_code absent;
+  if (fs::exists(file, absent))
+    return noted(from_file(file, width, height), IntrinsicsOrigin::kFile, file.string());
+  if (!request.known || width != kKnownWidth || height != kKnownHeight)
+    return nobody_tells(request, width, height);
+  const KnownCamera& known = *request.known;
+  return noted(
+      PinholeIntrinsics::create(width, height, known.fx_px, known.fy_px, known.cx_px, known.cy_px),
+      IntrinsicsOrigin::kKnownDataset, fmt::format("{}, by {}", known.name, request.recognised_by));
+}
+
+/// The first image that can be read; the error of the very first if there is none.
 Expected<DepthImage> first_readable(const std::vector<fs::path>& images,
                                     const DepthPngFormat& format) {
   std::optional<Error> first_fault;
@@ -85,21 +132,13 @@ Status check_folder(const fs::path& folder, std::string_view content) {
   return Done{};
 }
 
-Expected<FolderCamera> FolderCamera::open(const fs::path& folder,
-                                          const std::vector<fs::path>& images,
-                                          const DepthPngFormat& format,
-                                          const PinholePreset& preset) {
-  auto first = first_readable(images, format);
+Expected<FolderCamera> FolderCamera::open(const FolderCameraRequest& request,
+                                          const std::vector<fs::path>& images) {
+  auto first = first_readable(images, request.format);
   if (!first) return forward_error(std::move(first));
-
-  const int width = first->raw.width();
-  const int height = first->raw.height();
-  const fs::path file = folder / kIntrinsicsFile;
-  std::error_code absent;
-  auto intrinsics = fs::exists(file, absent) ? from_file(file, width, height)
-                                             : from_preset(preset, folder, width, height);
-  if (!intrinsics) return forward_error(std::move(intrinsics));
-  return FolderCamera(format, *intrinsics);
+  auto found = intrinsics_of(request, first->raw.width(), first->raw.height());
+  if (!found) return forward_error(std::move(found));
+  return FolderCamera(request.format, found->intrinsics, std::move(found->note));
 }
 
 Expected<DepthFrame> FolderCamera::read(const fs::path& image, Stamp stamp) const {

@@ -16,6 +16,7 @@
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/frame/trusted_poses.hpp"
+#include "swiftlet/source/intrinsics_note.hpp"
 #include "swiftlet/source/rig_event.hpp"
 #include "swiftlet/source/rig_facts.hpp"
 
@@ -25,19 +26,16 @@ struct RigOptions;
 
 /// Why a source could not turn a depth image into a Frame.
 enum class FrameLoss : std::uint8_t {
-  kNoPose,           ///< no pose brackets its time: before the first, after the last, or
-                     ///< none at all
-  kPoseGap,          ///< the bracketing poses lie too far apart to interpolate between
-  kPoseRefused,      ///< its pose is not finite, not unit, or not trusted by the
-                     ///< tracker
-  kOutOfOrder,       ///< its time is not after that of the image before it
-  kPoseJump,         ///< the pose source has jumped at its time
-  kPoseStale,        ///< the tracker had been silent for too long
-  kClockMismatch,    ///< stamped by another clock than the poses
-  kOverload,         ///< it came while the mapper was busy with others (real time only)
-  kImageMissing,     ///< the recording names it, but its file is not there
-  kImageUnreadable,  ///< its file is damaged, of another kind, or of another
-                     ///< size than the first
+  kNoPose,         ///< no pose brackets its time: before the first, after the last, or none at all
+  kPoseGap,        ///< the bracketing poses lie too far apart to interpolate between
+  kPoseRefused,    ///< its pose is not finite, not unit, or not trusted by the tracker
+  kOutOfOrder,     ///< its time is not after that of the image before it
+  kPoseJump,       ///< the pose source has jumped at its time
+  kPoseStale,      ///< the tracker had been silent for too long
+  kClockMismatch,  ///< stamped by another clock than the poses
+  kOverload,       ///< it came while the mapper was busy with others (real time only)
+  kImageMissing,   ///< the recording names it, but its file is not there
+  kImageUnreadable,  ///< its file is damaged, of another kind, or of another size than the first
 };
 inline constexpr std::array<std::string_view, 10> kFrameLossNames{
     "no_pose",    "pose_gap",       "pose_refused", "out_of_order",  "pose_jump",
@@ -58,41 +56,39 @@ struct FrameTally {
 
 /// What a source knows of itself before its first frame.
 struct SourceInfo {
-  std::string uri;                         ///< as the user typed it
-  std::string native_up_axis;              ///< the world axis of the recording that points
-                                           ///< up, as in "-y"
+  std::string uri;             ///< as the user typed it
+  std::string native_up_axis;  ///< the world axis of the recording that points up, as in "-y"
   std::optional<std::size_t> frame_count;  ///< for progress bars; absent where only the end tells
-  std::optional<double> baseline_m;        ///< of the stereo pair (or projector and
-                                           ///< camera), where it is known
+  std::optional<double>
+      baseline_m;  ///< of the stereo pair (or projector and camera), where it is known
+  IntrinsicsNote intrinsics{};
+  /// The unit of depth [m] if nobody told it and the source took that of its layout.
+  std::optional<double> assumed_depth_unit_m{};
 };
 
-/// Where frames come from. Poses are in our world (z up), whatever the
-/// recording's own axes. Thread safety: none, one owner.
+/// Where frames come from. Poses are in our world (z up), whatever the recording's own axes.
+/// Thread safety: none, one owner.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The next frame, later than every one before, or of the same time by a
-  /// camera of a higher number; nullopt at the end. Frames without a
-  /// trustworthy pose are skipped and counted. Errors: kCorruptInput, kIo, with
-  /// file and line; the source is then at its end.
+  /// The next frame, later than every one before, or of the same time by a camera of a higher
+  /// number; nullopt at the end. Frames without a trustworthy pose are skipped and counted. Errors:
+  /// kCorruptInput, kIo, with file and line; the source is then at its end.
   [[nodiscard]] virtual Expected<std::optional<Frame>> next() = 0;
 
   [[nodiscard]] virtual const SourceInfo& info() const = 0;
   [[nodiscard]] virtual const FrameTally& tally() const = 0;
 
-  /// What has come from the instruments, used or not, and how they are mounted;
-  /// null for sources that are no rig. Both stay where they are; next() changes
-  /// the facts.
+  /// What has come from the instruments, used or not, and how they are mounted; null for sources
+  /// that are no rig. Both stay where they are; next() changes the facts.
   [[nodiscard]] virtual const RigFacts* facts() const { return nullptr; }
   [[nodiscard]] virtual const RigOptions* rig() const { return nullptr; }
 
-  /// A source asks this while it has no frame to hand out: a live one ten times
-  /// a second, others while they skip what has no pose. tally() may be read
-  /// then. After a true next() ends.
+  /// A source asks this while it has no frame to hand out: a live one ten times a second, others
+  /// while they skip what has no pose. tally() may be read then. After a true next() ends.
   virtual void stop_when(const std::function<bool()>& /*is_unwanted*/) {}
-  /// What has happened to live instruments, and which records were skipped,
-  /// since the last call.
+  /// What has happened to live instruments, and which records were skipped, since the last call.
   [[nodiscard]] virtual std::vector<RigEvent> take_events() { return {}; }
 };
 

@@ -11,17 +11,17 @@
 #include "swiftlet/source/address_options.hpp"
 #include "swiftlet/source/depth_png.hpp"
 #include "swiftlet/source/folder_camera.hpp"
+#include "swiftlet/source/folder_options.hpp"
 #include "swiftlet/source/joined_source.hpp"
 #include "swiftlet/source/openloris_calibration.hpp"
 #include "swiftlet/source/rig_options.hpp"
 #include "swiftlet/source/tum_lists.hpp"
 
-// OpenLORIS-Scene: a robot with a D435i and a T265 in homes, offices and
-// markets. Its released folders hold no pose stream of the T265, only the
-// ground truth of the robot's base_link; a path of your own odometry can take
-// its place. Options: images=depth|aligned_depth, poses=FILE (lines as in
-// groundtruth.txt), and those of every rig. Source: Shi et al. 2020;
-// lifelong-robotic-vision/openloris-scene-tools.
+// OpenLORIS-Scene: a robot with a D435i and a T265 in homes, offices and markets. Its released
+// folders hold no pose stream of the T265, only the ground truth of the robot's base_link; a path
+// of your own odometry can take its place. Options: images=depth|aligned_depth, poses=FILE (lines
+// as in groundtruth.txt), depth_unit_m, time_offset_ms, and those of every rig. Source: Shi et al.
+// 2020; lifelong-robotic-vision/openloris-scene-tools.
 
 namespace swiftlet {
 namespace {
@@ -29,14 +29,17 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kContent =
-    "depth.txt, groundtruth.txt, sensors.yaml, trans_matrix.yaml and the "
-    "images they speak of";
+    "depth.txt, groundtruth.txt, sensors.yaml, trans_matrix.yaml and the images they speak of";
 constexpr double kBaseline_m = 0.05;  // D435i
 
 class ListedDepth final : public DepthStream {
  public:
-  ListedDepth(fs::path folder, std::vector<TumImage> images, const PinholeIntrinsics& intrinsics)
-      : folder_(std::move(folder)), images_(std::move(images)), intrinsics_(intrinsics) {}
+  ListedDepth(fs::path folder, std::vector<TumImage> images, const PinholeIntrinsics& intrinsics,
+              const DepthPngFormat& format)
+      : folder_(std::move(folder)),
+        images_(std::move(images)),
+        intrinsics_(intrinsics),
+        format_(format) {}
 
   /// The next image that can be used.
   Expected<std::optional<DepthFrame>> next() override {
@@ -52,7 +55,7 @@ class ListedDepth final : public DepthStream {
 
  private:
   [[nodiscard]] Expected<DepthImage> read(const fs::path& file) const {
-    auto depth = read_depth_png(file, {});
+    auto depth = read_depth_png(file, format_);
     if (!depth) return depth;
     if (depth->raw.width() != intrinsics_.width() || depth->raw.height() != intrinsics_.height())
       return fail(ErrorCode::kCorruptInput, file.string(),
@@ -63,6 +66,7 @@ class ListedDepth final : public DepthStream {
   fs::path folder_;
   std::vector<TumImage> images_;
   PinholeIntrinsics intrinsics_;
+  DepthPngFormat format_;
   std::vector<SkippedImage> skipped_;
   std::size_t next_ = 0;
 };
@@ -95,6 +99,7 @@ struct Request {
   std::string images = "depth";
   std::string poses;  // empty: the ground truth
   RigOptions rig;
+  FolderOptions folder;
 };
 
 Expected<Request> parse_request(const SourceAddress& address) {
@@ -103,11 +108,14 @@ Expected<Request> parse_request(const SourceAddress& address) {
     const bool is_images = key == "images" && (value == "depth" || value == "aligned_depth");
     if (is_images) request.images = value;
     if (key == "poses") request.poses = value;
-    const bool is_own = is_images || (key == "poses" && !value.empty());
+    const bool is_own = is_images || (key == "poses" && !value.empty()) ||
+                        apply_depth_unit(key, value, request.folder) ||
+                        apply_time_offset(key, value, request.folder);
     if (!is_own && (key == "rig" || !apply_rig_option(key, value, request.rig)))
-      return bad_option("openloris", key, value,
-                        "images=depth|aligned_depth, poses=FILE, pairing, "
-                        "on_jump, pose_offset_ms");
+      return bad_option(
+          "openloris", key, value,
+          "images=depth|aligned_depth, poses=FILE, depth_unit_m, time_offset_ms, pairing, "
+          "on_jump, pose_offset_ms");
   }
   const auto on_jump = request.rig.poses.gates.on_jump;
   request.rig.poses.gates = request.poses.empty() ? PoseGates::open() : tracker_gates();
@@ -118,7 +126,7 @@ Expected<Request> parse_request(const SourceAddress& address) {
 }  // namespace
 
 Expected<FrameSourcePtr> open_openloris_source(std::string_view rest) {
-  auto address = parse_address(rest, "openloris");
+  auto address = parse_place_address(rest, "openloris");
   if (!address) return forward_error(std::move(address));
   auto request = parse_request(*address);
   if (!request) return forward_error(std::move(request));
@@ -132,14 +140,22 @@ Expected<FrameSourcePtr> open_openloris_source(std::string_view rest) {
   if (!camera) return forward_error(std::move(camera));
   auto images = of_this_kind(read_tum_images(folder / (request->images + ".txt")));
   if (!images) return forward_error(std::move(images));
+  shift_times(*images, request->folder.time_offset);
   auto poses = of_this_kind(read_tum_poses(request->poses.empty() ? folder / "groundtruth.txt"
                                                                   : fs::path(request->poses)));
   if (!poses) return forward_error(std::move(poses));
 
   request->rig.cameras.front().T_body_camera = camera->T_body_camera;
-  SourceInfo info{"openloris:" + std::string(rest), "+z", images->size(), kBaseline_m};
+  const DepthPngFormat format{.unit_m = request->folder.depth_unit_m.value_or(0.001F)};
+  SourceInfo info{.uri = "openloris:" + std::string(rest),
+                  .native_up_axis = "+z",
+                  .frame_count = images->size(),
+                  .baseline_m = kBaseline_m,
+                  .intrinsics = {IntrinsicsOrigin::kFile, (folder / "sensors.yaml").string()}};
+  if (!request->folder.depth_unit_m) info.assumed_depth_unit_m = format.unit_m;
   std::vector<DepthStreamPtr> streams;
-  streams.push_back(std::make_unique<ListedDepth>(folder, std::move(*images), camera->intrinsics));
+  streams.push_back(
+      std::make_unique<ListedDepth>(folder, std::move(*images), camera->intrinsics, format));
   return std::make_unique<JoinedSource>(std::move(info), std::move(streams),
                                         std::make_unique<ListedPoses>(std::move(*poses)),
                                         request->rig);

@@ -141,6 +141,7 @@ Expected<FrameSourcePtr> open_realsense(RealsenseDevicesPtr devices,
     if (cameras[i].baseline_m == 0.0) cameras[i].baseline_m = (*infos)[i].baseline_m;
   }
   SourceInfo info{request.uri, request.pose_port ? "+z" : "+y", std::nullopt, std::nullopt};
+  info.intrinsics = {IntrinsicsOrigin::kSdk, {}};
   if (infos->front().baseline_m > 0.0) info.baseline_m = infos->front().baseline_m;
   auto source = std::make_unique<RealsenseSource>(std::move(info), options);
   if (auto started = source->start(std::move(devices), request); !started)

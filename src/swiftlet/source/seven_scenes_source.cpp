@@ -11,18 +11,17 @@
 #include <vector>
 
 #include "swiftlet/source/folder_camera.hpp"
+#include "swiftlet/source/folder_options.hpp"
 #include "swiftlet/source/frame_source.hpp"
 #include "swiftlet/source/matrix_file.hpp"
 #include "swiftlet/source/skipped_records.hpp"
 #include "swiftlet/source/world_axes.hpp"
 
-// Microsoft 7-Scenes, and everything else that is written in its layout: one
-// folder with
+// Microsoft 7-Scenes, and everything else that is written in its layout: one folder with
 //   frame-000123.depth.png   16-bit millimetres, 0 and 65535 = no reading
 //   frame-000123.pose.txt    4 x 4 camera-to-world, optical axes, metres
-//   camera-intrinsics.txt    optional; default 585 585 320 240
-// Source: Shotton et al. 2013 and the data set's readme. World: the first
-// camera's optical axes.
+//   camera-intrinsics.txt    not needed for a sequence of the data set itself
+// Source: Shotton et al. 2013 and the data set's readme. World: the first camera's optical axes.
 
 namespace swiftlet {
 namespace {
@@ -33,9 +32,10 @@ constexpr std::string_view kContent =
     "frame-XXXXXX.depth.png and frame-XXXXXX.pose.txt, as 7-Scenes does";
 constexpr std::string_view kPrefix = "frame-";
 constexpr std::string_view kDepthSuffix = ".depth.png";
+constexpr std::string_view kColourSuffix = ".color.png";
 constexpr std::string_view kPoseSuffix = ".pose.txt";
 constexpr DepthPngFormat kFormat{.unit_m = 0.001F, .is_full_scale_invalid = true};
-constexpr PinholePreset kKinect{585.0, 585.0, 320.0, 240.0};
+constexpr KnownCamera kKinect{"7-Scenes", 585.0, 585.0, 320.0, 240.0};
 constexpr double kKinectBaseline_m = 0.075;
 constexpr std::int64_t kFrameRate_hz = 30;
 constexpr WorldAxes kAxes = WorldAxes::kOptical;
@@ -45,8 +45,7 @@ struct RecordedFrame {
   fs::path depth;
   fs::path pose;
 
-  /// The layout has no clock: frames are numbered at 30 Hz, and numbers may
-  /// skip.
+  /// The layout has no clock: frames are numbered at 30 Hz, and numbers may skip.
   [[nodiscard]] Stamp stamp() const { return Stamp{number * 1'000'000'000LL / kFrameRate_hz}; }
 };
 
@@ -89,29 +88,42 @@ Status check_frames(const std::vector<RecordedFrame>& frames) {
               "remove one of them");
 }
 
-Expected<Transform<World, Camera>> read_pose(const fs::path& path) {
+/// Recognises a sequence of the data set: a folder "seq-01" that has colour beside the depth, as
+/// frame-000000.color.png. Others write in the same layout, but not in such folders.
+void recognise_sequence(const std::vector<RecordedFrame>& frames, FolderCameraRequest& request) {
+  std::error_code refused;
+  const fs::path real = fs::canonical(request.folder, refused);
+  const std::string name = (refused ? request.folder : real).filename().string();
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const bool is_sequence =
+      name.size() == 6 && name.starts_with("seq-") && is_digit(name[4]) && is_digit(name[5]);
+  std::string colour = frames.front().depth.string();
+  colour.replace(colour.size() - kDepthSuffix.size(), kDepthSuffix.size(), kColourSuffix);
+  if (!is_sequence || !fs::exists(colour, refused)) return;
+  request.known = kKinect;
+  request.recognised_by = "a folder seq-NN with colour images";
+}
+
+Expected<Transform<World, Camera>> read_pose(const fs::path& path, WorldAxes axes) {
   auto matrix = read_matrix4(path);
   if (!matrix) return forward_error(std::move(matrix));
   auto T_native_camera = Transform<NativeWorld, Camera>::from_matrix(*matrix);
   if (!T_native_camera) {
     return fail(T_native_camera.error().code, path.string(), T_native_camera.error().what,
-                "a pose is camera-to-world, R t / 0 0 0 1 in metres; correct "
-                "it, or remove it "
+                "a pose is camera-to-world, R t / 0 0 0 1 in metres; correct it, or remove it "
                 "together with its depth image");
   }
-  return world_from(kAxes) * *T_native_camera;
+  return world_from(axes) * *T_native_camera;
 }
 
 class SevenScenesSource final : public FrameSource {
  public:
-  SevenScenesSource(std::string_view folder, std::vector<RecordedFrame> frames,
-                    const FolderCamera& camera)
-      : frames_(std::move(frames)), camera_(camera) {
-    info_ = {.uri = "7scenes:" + std::string(folder),
-             .native_up_axis = std::string(up_axis(kAxes)),
-             .frame_count = frames_.size(),
-             .baseline_m = kKinectBaseline_m};
-  }
+  SevenScenesSource(SourceInfo info, std::vector<RecordedFrame> frames, FolderCamera camera,
+                    WorldAxes axes)
+      : frames_(std::move(frames)),
+        camera_(std::move(camera)),
+        axes_(axes),
+        info_(std::move(info)) {}
 
   Expected<std::optional<Frame>> next() override {
     while (next_ < frames_.size()) {
@@ -136,7 +148,7 @@ class SevenScenesSource final : public FrameSource {
 
   /// nullopt, and counted, if its pose or its image is bad.
   [[nodiscard]] std::optional<Frame> read(const RecordedFrame& recorded) {
-    auto T_world_camera = read_pose(recorded.pose);
+    auto T_world_camera = read_pose(recorded.pose, axes_);
     if (!T_world_camera) {
       const bool is_missing = T_world_camera.error().code == ErrorCode::kNotFound;
       return skip(is_missing ? FrameLoss::kNoPose : FrameLoss::kPoseRefused,
@@ -152,25 +164,46 @@ class SevenScenesSource final : public FrameSource {
 
   std::vector<RecordedFrame> frames_;  // ascending numbers, all different
   FolderCamera camera_;
+  WorldAxes axes_;
   SourceInfo info_;
   FrameTally tally_;
   SkippedRecords skipped_;
   std::size_t next_ = 0;
 };
 
+Expected<FolderCamera> open_camera(const FolderOptions& options,
+                                   const std::vector<RecordedFrame>& frames) {
+  DepthPngFormat format = kFormat;
+  format.unit_m = options.depth_unit_m.value_or(kFormat.unit_m);
+  FolderCameraRequest request{
+      .folder = options.folder, .format = format, .intrinsics = options.intrinsics};
+  recognise_sequence(frames, request);
+  std::vector<fs::path> images;
+  for (const RecordedFrame& frame : frames) images.push_back(frame.depth);
+  return FolderCamera::open(request, images);
+}
+
 }  // namespace
 
-Expected<FrameSourcePtr> open_seven_scenes_source(std::string_view folder) {
-  if (auto usable = check_folder(folder, kContent); !usable)
+Expected<FrameSourcePtr> open_seven_scenes_source(std::string_view rest) {
+  auto options = parse_folder_options(rest, "7scenes", false);
+  if (!options) return forward_error(std::move(options));
+  if (auto usable = check_folder(options->folder, kContent); !usable)
     return forward_error(std::move(usable));
-  auto frames = list_frames(folder);
+  auto frames = list_frames(options->folder);
   if (!frames) return forward_error(std::move(frames));
   if (auto usable = check_frames(*frames); !usable) return forward_error(std::move(usable));
-  std::vector<fs::path> images;
-  for (const RecordedFrame& frame : *frames) images.push_back(frame.depth);
-  auto camera = FolderCamera::open(folder, images, kFormat, kKinect);
+  auto camera = open_camera(*options, *frames);
   if (!camera) return forward_error(std::move(camera));
-  return std::make_unique<SevenScenesSource>(folder, std::move(*frames), *camera);
+  const WorldAxes axes = options->up.value_or(kAxes);
+  SourceInfo info{.uri = "7scenes:" + std::string(rest),
+                  .native_up_axis = std::string(up_axis(axes)),
+                  .frame_count = frames->size(),
+                  .baseline_m = kKinectBaseline_m,
+                  .intrinsics = camera->note()};
+  if (!options->depth_unit_m) info.assumed_depth_unit_m = kFormat.unit_m;
+  return std::make_unique<SevenScenesSource>(std::move(info), std::move(*frames),
+                                             std::move(*camera), axes);
 }
 
 }  // namespace swiftlet

@@ -173,9 +173,11 @@ Expected<FrameSourcePtr> open_sim_source(std::string_view rest) {
   const Nanoseconds left = scene.flight.duration() - flight->options.start;
   const auto rounds = static_cast<std::size_t>(seconds(left) * scene.camera.rate_hz + 1e-6) + 1;
   const std::size_t images = rounds * rig.cameras.size();
-  SourceInfo info{"sim:" + std::string(rest), "+y",
+  SourceInfo info{"sim:" + std::string(rest),
+                  "+y",
                   std::min(images, flight->options.frames.value_or(images)),
-                  scene.camera.baseline_m};
+                  scene.camera.baseline_m,
+                  {IntrinsicsOrigin::kSimulator, {}}};
   auto sim = build_world(std::move(*flight));
   if (!sim) return forward_error(std::move(sim));
   return std::make_unique<SimSource>(std::move(info), std::move(*sim));

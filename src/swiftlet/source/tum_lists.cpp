@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <span>
 
 #include "swiftlet/file/file_content.hpp"
@@ -78,6 +80,30 @@ Expected<std::vector<TumImage>> read_tum_images(const fs::path& list) {
 
 Expected<std::vector<TumPose>> read_tum_poses(const fs::path& list) {
   return read_list<TumPose>(list, parse_pose);
+}
+
+void shift_times(std::vector<TumImage>& images, Nanoseconds offset) {
+  constexpr auto kFirst = std::numeric_limits<std::int64_t>::min();
+  constexpr auto kLast = std::numeric_limits<std::int64_t>::max();
+  const std::int64_t by_ns = offset.count();
+  for (TumImage& image : images) {
+    const bool is_beyond =
+        by_ns > 0 ? image.stamp.ns > kLast - by_ns : image.stamp.ns < kFirst - by_ns;
+    image.stamp.ns = is_beyond ? (by_ns > 0 ? kLast : kFirst) : image.stamp.ns + by_ns;
+  }
+}
+
+std::string tum_origin(const fs::path& list) {
+  auto text = read_text_file(list, kMostListBytes);
+  if (!text) return {};
+  std::string_view rest = *text;
+  while (rest.starts_with('#')) {  // the head of the file
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    const auto words = words_of(line.substr(1));
+    if (words.size() == 2 && words[0] == "file:") return std::string(words[1]);
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+  }
+  return {};
 }
 
 }  // namespace swiftlet

@@ -5,23 +5,25 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "swiftlet/source/folder_camera.hpp"
+#include "swiftlet/source/folder_options.hpp"
 #include "swiftlet/source/frame_source.hpp"
 #include "swiftlet/source/rig.hpp"
 #include "swiftlet/source/skipped_records.hpp"
 #include "swiftlet/source/tum_lists.hpp"
 #include "swiftlet/source/world_axes.hpp"
 
-// TUM RGB-D: depth.txt lists 16-bit images (5000 steps a metre, 0 = no
-// reading), groundtruth.txt the path of the camera; each with its own clock
-// ticks. The pose of an image is interpolated at the image's own time, not
-// taken from the nearest neighbour. Images and poses that are bad are left out
-// and counted. Source: Sturm et al. 2012 and the data set's pages "File
-// Formats", "Intrinsic Camera Calibration".
+// TUM RGB-D: depth.txt lists 16-bit images (5000 steps a metre, 0 = no reading), groundtruth.txt
+// the path of the camera; each with its own clock ticks. The pose of an image is interpolated at
+// the image's own time, not taken from the nearest neighbour. Images and poses that are bad are
+// left out and counted. Options: folder_options.hpp. Source: Sturm et al. 2012 and the data set's
+// pages "File Formats", "Intrinsic Camera Calibration".
 
 namespace swiftlet {
 namespace {
@@ -34,28 +36,38 @@ constexpr DepthPngFormat kFormat{.unit_m = 1.0F / 5000.0F, .is_full_scale_invali
 constexpr double kKinectBaseline_m = 0.075;
 constexpr WorldAxes kAxes = WorldAxes::kZUp;  // motion capture
 
-struct NamedPreset {
-  std::string_view mark;  // found in the name of the folder
-  PinholePreset preset;
-};
-constexpr std::array kPresets{
-    NamedPreset{"freiburg1", {517.3, 516.5, 318.6, 255.3}},
-    NamedPreset{"freiburg2", {520.9, 521.0, 325.1, 249.7}},
-    NamedPreset{"freiburg3", {535.4, 539.2, 320.1, 247.6}},
-    NamedPreset{"fr1", {517.3, 516.5, 318.6, 255.3}},
-    NamedPreset{"fr2", {520.9, 521.0, 325.1, 249.7}},
-    NamedPreset{"fr3", {535.4, 539.2, 320.1, 247.6}},
-};
-constexpr PinholePreset kRosDefault{525.0, 525.0, 319.5, 239.5};
+// The calibrations of the data set's depth images, which are registered to colour.
+constexpr std::array kCameras{KnownCamera{"TUM freiburg1", 517.3, 516.5, 318.6, 255.3},
+                              KnownCamera{"TUM freiburg2", 520.9, 521.0, 325.1, 249.7},
+                              KnownCamera{"TUM freiburg3", 535.4, 539.2, 320.1, 247.6}};
 
-PinholePreset preset_for(const fs::path& folder) {
-  std::error_code refused;
-  const fs::path real = fs::canonical(folder, refused);  // so that "." and "dir/" have a name too
-  const std::string name = (refused ? folder : real).filename().string();
-  for (const NamedPreset& named : kPresets) {
-    if (name.find(named.mark) != std::string::npos) return named.preset;
+/// The camera that a name speaks of: freiburg1, 2 or 3, also fr1, 2 or 3, as a word of it.
+std::optional<KnownCamera> camera_named(std::string_view name) {
+  const auto is_part_of_word = [&](std::size_t at) {
+    return at < name.size() && name.find_first_of("_-. '/", at) != at;
+  };
+  for (const std::string_view mark : {"freiburg", "fr"}) {
+    for (std::size_t at = name.find(mark); at != std::string_view::npos;
+         at = name.find(mark, at + 1)) {
+      const std::size_t digit = at + mark.size();
+      const bool is_word = (at == 0 || !is_part_of_word(at - 1)) && !is_part_of_word(digit + 1);
+      if (!is_word || digit >= name.size() || name[digit] < '1' || name[digit] > '3') continue;
+      return kCameras[static_cast<std::size_t>(name[digit] - '1')];
+    }
   }
-  return kRosDefault;
+  return std::nullopt;
+}
+
+/// Recognises a recording of the data set: its lists name the bag that they were made from, as in
+/// 'rgbd_dataset_freiburg1_xyz.bag'; where the heads of the lists are gone, its folder does.
+void recognise(FolderCameraRequest& request) {
+  request.recognised_by = "the head of depth.txt";
+  request.known = camera_named(tum_origin(request.folder / "depth.txt"));
+  if (request.known) return;
+  std::error_code refused;
+  const fs::path real = fs::canonical(request.folder, refused);  // "." and "dir/" have a name, too
+  request.recognised_by = "the name of the folder";
+  request.known = camera_named((refused ? request.folder : real).filename().string());
 }
 
 Status check_overlap(const fs::path& folder, const std::vector<TumImage>& images,
@@ -65,29 +77,31 @@ Status check_overlap(const fs::path& folder, const std::vector<TumImage>& images
   if (from <= until) return Done{};
   const auto s = [](Stamp stamp) { return seconds(Nanoseconds(stamp.ns)); };
   return fail(ErrorCode::kCorruptInput, folder.string(),
-              fmt::format("depth ({:.3f} to {:.3f} s) and ground truth ({:.3f} "
-                          "to {:.3f} s) do not "
+              fmt::format("depth ({:.3f} to {:.3f} s) and ground truth ({:.3f} to {:.3f} s) do not "
                           "overlap in time",
                           s(images.front().stamp), s(images.back().stamp), s(poses.front().stamp),
                           s(poses.back().stamp)),
               "use the groundtruth.txt of the same recording and clock");
 }
 
+/// What the folder is made of, checked and sorted by time.
+struct TumRecording {
+  std::vector<TumImage> images;
+  std::vector<TumPose> poses;
+  FolderCamera camera;
+};
+
 class TumSource final : public FrameSource {
  public:
-  TumSource(std::string_view folder, std::vector<TumImage> images, std::vector<TumPose> poses,
-            const FolderCamera& camera)
-      : folder_(folder),
-        images_(std::move(images)),
-        poses_(std::move(poses)),
-        camera_(camera),
+  TumSource(SourceInfo info, const FolderOptions& options, TumRecording recording)
+      : folder_(options.folder),
+        axes_(options.up.value_or(kAxes)),
+        images_(std::move(recording.images)),
+        poses_(std::move(recording.poses)),
+        camera_(std::move(recording.camera)),
         rig_({.cameras = {{.T_body_camera = forward_looking_camera()}},
-              .poses = {.track = {}, .gates = PoseGates::open()}}) {
-    info_ = {.uri = "tum:" + std::string(folder),
-             .native_up_axis = std::string(up_axis(kAxes)),
-             .frame_count = images_.size(),
-             .baseline_m = kKinectBaseline_m};
-  }
+              .poses = {.track = {}, .gates = PoseGates::open()}}),
+        info_(std::move(info)) {}
 
   Expected<std::optional<Frame>> next() override {
     while (next_image_ < images_.size()) {
@@ -117,16 +131,14 @@ class TumSource final : public FrameSource {
   [[nodiscard]] PoseSample in_our_world(const TumPose& pose) const {
     const auto T_native_camera =
         Transform<NativeWorld, Camera>::from(pose.R_native_camera, pose.t_native_camera_m);
-    // What is no pose goes on as it is: the gates say what is wrong with it,
-    // and count it.
+    // What is no pose goes on as it is: the gates say what is wrong with it, and count it.
     if (!T_native_camera) return {pose.stamp, pose.R_native_camera, pose.t_native_camera_m};
     const Transform<World, Body> T_world_body =
-        world_from(kAxes) * *T_native_camera * forward_looking_camera().inverse();
+        world_from(axes_) * *T_native_camera * forward_looking_camera().inverse();
     return {pose.stamp, T_world_body.rotation(), T_world_body.translation()};
   }
 
-  /// As a live rig would see it: every pose up to the first that is not before
-  /// the image.
+  /// As a live rig would see it: every pose up to the first that is not before the image.
   void push_poses_until(Stamp stamp) {
     while (next_pose_ < poses_.size()) {
       const TumPose& pose = poses_[next_pose_++];
@@ -137,6 +149,7 @@ class TumSource final : public FrameSource {
   }
 
   fs::path folder_;
+  WorldAxes axes_;
   std::vector<TumImage> images_;  // ascending stamps
   std::vector<TumPose> poses_;    // ascending stamps
   FolderCamera camera_;
@@ -147,23 +160,42 @@ class TumSource final : public FrameSource {
   std::size_t next_pose_ = 0;
 };
 
-}  // namespace
-
-Expected<FrameSourcePtr> open_tum_source(std::string_view folder_name) {
-  const fs::path folder(folder_name);
-  if (auto usable = check_folder(folder, kContent); !usable)
-    return forward_error(std::move(usable));
+Expected<TumRecording> read_recording(const FolderOptions& options, FolderCameraRequest request) {
+  const fs::path& folder = options.folder;
   auto images = read_tum_images(folder / "depth.txt");
   if (!images) return forward_error(std::move(images));
+  shift_times(*images, options.time_offset);
   auto poses = read_tum_poses(folder / "groundtruth.txt");
   if (!poses) return forward_error(std::move(poses));
   if (auto usable = check_overlap(folder, *images, *poses); !usable)
     return forward_error(std::move(usable));
+  recognise(request);
   std::vector<fs::path> files;
   for (const TumImage& image : *images) files.push_back(folder / image.file);
-  auto camera = FolderCamera::open(folder, files, kFormat, preset_for(folder));
+  auto camera = FolderCamera::open(request, files);
   if (!camera) return forward_error(std::move(camera));
-  return std::make_unique<TumSource>(folder_name, std::move(*images), std::move(*poses), *camera);
+  return TumRecording{std::move(*images), std::move(*poses), std::move(*camera)};
+}
+
+}  // namespace
+
+Expected<FrameSourcePtr> open_tum_source(std::string_view rest) {
+  auto options = parse_folder_options(rest, "tum", true);
+  if (!options) return forward_error(std::move(options));
+  if (auto usable = check_folder(options->folder, kContent); !usable)
+    return forward_error(std::move(usable));
+  DepthPngFormat format = kFormat;
+  format.unit_m = options->depth_unit_m.value_or(kFormat.unit_m);
+  auto recording = read_recording(
+      *options, {.folder = options->folder, .format = format, .intrinsics = options->intrinsics});
+  if (!recording) return forward_error(std::move(recording));
+  SourceInfo info{.uri = "tum:" + std::string(rest),
+                  .native_up_axis = std::string(up_axis(options->up.value_or(kAxes))),
+                  .frame_count = recording->images.size(),
+                  .baseline_m = kKinectBaseline_m,
+                  .intrinsics = recording->camera.note()};
+  if (!options->depth_unit_m) info.assumed_depth_unit_m = kFormat.unit_m;
+  return std::make_unique<TumSource>(std::move(info), *options, std::move(*recording));
 }
 
 }  // namespace swiftlet
