@@ -35,8 +35,13 @@ class Recorded final : public FrameSource {
   }
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return tally_; }
+  std::vector<RigEvent> take_events() override {
+    if (std::exchange(has_told_, true)) return {};
+    return {{RigEventKind::kSkipped, "7.png", "damaged"}};
+  }
 
  private:
+  bool has_told_ = false;
   int frames_;
   bool has_fault_;
   int given_ = 0;
@@ -130,6 +135,18 @@ TEST(RealTime, tells_what_is_lost_while_no_frame_comes_and_ends_when_it_is_asked
   ASSERT_TRUE(end) << "no error: somebody wants to go home";
   EXPECT_FALSE(*end);
   EXPECT_EQ(source->tally().delivered, 1U);
+}
+
+TEST(RealTime, passes_on_which_records_were_skipped) {
+  const auto source = play_in_real_time(std::make_unique<Recorded>(2, false));
+  std::vector<RigEvent> events;
+  for (bool has_more = true; has_more;) {
+    const auto frame = source->next();
+    has_more = frame && *frame;
+    for (RigEvent& event : source->take_events()) events.push_back(std::move(event));
+  }
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].who, "7.png");
 }
 
 TEST(RealTime, can_be_left_before_its_end) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "swiftlet/base/contract.hpp"
 
@@ -23,7 +24,7 @@ class RealTimeSource final : public FrameSource {
       : source_(std::move(source)), info_(source_->info()), policy_(policy) {
     source_->stop_when([this] {  // asked by the player
       const std::lock_guard lock(mutex_);
-      source_tally_ = source_->tally();
+      ask_source();
       return is_stopped_;
     });
     player_ = std::thread([this] { play(); });
@@ -64,6 +65,10 @@ class RealTimeSource final : public FrameSource {
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return tally_; }
   void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
+  std::vector<RigEvent> take_events() override {
+    const std::lock_guard lock(mutex_);
+    return events_.take();
+  }
 
  private:
   using Clock = HostTime::clock;
@@ -74,6 +79,12 @@ class RealTimeSource final : public FrameSource {
     tally_ = source_tally_;
     tally_.of(FrameLoss::kOverload) += overloaded_;
     tally_.delivered = delivered_;
+  }
+
+  /// By the player. REQUIRES: the lock.
+  void ask_source() {
+    source_tally_ = source_->tally();
+    for (RigEvent& event : source_->take_events()) events_.add(std::move(event));
   }
 
   void play() {
@@ -103,7 +114,7 @@ class RealTimeSource final : public FrameSource {
       ++overloaded_;
     }
     queue_.push_back(std::move(frame));
-    source_tally_ = source_->tally();
+    ask_source();
     changed_.notify_all();
     return true;
   }
@@ -111,7 +122,7 @@ class RealTimeSource final : public FrameSource {
   void finish(Expected<std::optional<Frame>>&& end) {
     const std::lock_guard lock(mutex_);
     if (!end) fault_ = std::move(end).error();
-    source_tally_ = source_->tally();
+    ask_source();
     is_played_ = true;
     changed_.notify_all();
   }
@@ -127,6 +138,7 @@ class RealTimeSource final : public FrameSource {
   std::condition_variable changed_;
   std::deque<Frame> queue_;
   FrameTally source_tally_;
+  RigEventList events_;
   std::size_t overloaded_ = 0;
   std::optional<Error> fault_;
   bool is_played_ = false;
