@@ -3,6 +3,7 @@
 
 #include "swiftlet/app/config_file.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -55,6 +56,7 @@ TEST(ConfigFile, a_config_written_as_yaml_reads_back_to_the_same_bits) {
                  [&](const ConfigField& field, auto& value) { vary(random, field, value); });
     config.map.voxel_m = random.real(0.1, 1.0);  // so that the window has room
     config.map.size_m = Eigen::Vector3d::Constant(random.real(1.0, 20.0));
+    config.map.trigger_m = 0.5 * random.real(0.02, 1.0) * config.map.size_m;
     config.depth.max_range_m = config.depth.min_range_m / 2.0 + 49.9;
     config.depth.min_range_m /= 2.0;
     const std::string yaml = config_to_yaml(config);
@@ -139,6 +141,12 @@ TEST(ConfigFile, a_window_that_cannot_be_is_an_error_with_its_line) {
               ElementsAre(AllOf(StartsWith("f.yaml:3: map.size_m: "), HasSubstr("GiB"))));
 }
 
+TEST(ConfigFile, a_vehicle_that_would_leave_its_window_is_an_error_with_its_line) {
+  EXPECT_THAT(complaints("map:\n  size_m: [20, 20, 4]\n  trigger_m: [1, 1, 3]\n"),
+              ElementsAre(AllOf(StartsWith("f.yaml:3: map.trigger_m: "), HasSubstr("half"))));
+  EXPECT_TRUE(complaints("map: {size_m: [20, 20, 4], trigger_m: [10, 10, 2]}").empty());
+}
+
 TEST(ConfigFile, all_faults_are_told_at_once) {
   EXPECT_THAT(complaints("map:\n  voxel_m: x\n  size: 3\ndepth:\n  downsample: y\n"), SizeIs(3));
 }
@@ -174,23 +182,56 @@ TEST(ConfigFile, settings_win_over_the_file_and_later_ones_over_earlier_ones) {
   const test::TempFolder folder;
   test::write_file(folder / "f.yaml", "map: {voxel_m: 0.1}\ndepth: {downsample: 2}\n");
   const auto config =
-      load_config({(folder / "f.yaml").string(), {"map.voxel_m=0.3", "map.voxel_m=0.4"}});
+      load_config({{(folder / "f.yaml").string()}, {"map.voxel_m=0.3", "map.voxel_m=0.4"}});
   ASSERT_TRUE(config);
   EXPECT_EQ(config->mapper.map.voxel_m, 0.4);
   EXPECT_EQ(config->mapper.depth.downsample, 2);
 }
 
+TEST(ConfigFile, of_several_files_a_later_one_wins_and_faults_name_their_file) {
+  const test::TempFolder folder;
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  test::write_file(folder / "base.yaml", "map: {voxel_m: 0.1, size_m: 8}\n");
+  test::write_file(folder / "fine.yaml", "map: {voxel_m: 0.05}\n");
+  const auto merged = load_config({{path("base.yaml"), path("fine.yaml")}, {}});
+  ASSERT_TRUE(merged) << merged.error().front().text();
+  EXPECT_EQ(merged->mapper.map.voxel_m, 0.05);
+  EXPECT_EQ(merged->mapper.map.size_m, Eigen::Vector3d(8, 8, 8));
+  EXPECT_EQ(merged->places.at("map.voxel_m"), path("fine.yaml") + ":1");
+  EXPECT_EQ(load_config({{path("fine.yaml"), path("base.yaml")}, {}})->mapper.map.voxel_m, 0.1);
+
+  test::write_file(folder / "bad.yaml", "\nmap: {voxel_m: -1}\n");
+  const auto bad = load_config({{path("base.yaml"), path("bad.yaml")}, {}});
+  ASSERT_FALSE(bad);
+  EXPECT_THAT(bad.error().front().where, StartsWith(path("bad.yaml") + ":2"));
+  test::write_file(folder / "twice.yaml", "map: {voxel_m: 0.1, voxel_m: 0.2}\n");
+  EXPECT_FALSE(load_config({{path("base.yaml"), path("twice.yaml")}, {}}))
+      << "a key that stands twice in one file is a fault still";
+}
+
+TEST(ConfigFile, a_hostile_text_is_an_error_with_its_line_and_no_crash) {
+  EXPECT_THAT(complaints("map: &a {x: *a}\n"),
+              ElementsAre(AllOf(StartsWith("f.yaml:1: "), HasSubstr("within what it repeats"))));
+  std::string laughs = "k0: &k0 {a: 1, b: 2, c: 3}\n";
+  for (int i = 1; i < 12; ++i) {
+    laughs += fmt::format("k{0}: &k{0} [*k{1}, *k{1}, *k{1}, *k{1}, *k{1}, *k{1}, *k{1}, *k{1}]\n",
+                          i, i - 1);
+  }
+  EXPECT_THAT(complaints(laughs), ElementsAre(HasSubstr("stands for more than")));
+  EXPECT_THAT(complaints(std::string(10'000, '[')), ElementsAre(HasSubstr("deep")));
+}
+
 TEST(ConfigFile, a_setting_that_cannot_be_is_an_error) {
   for (const char* text :
        {"map.voxel_m", "map.voxel_m=", "=3", "map.voxel_m=[", "map.voxel_m=-1"}) {
-    const auto config = load_config({"", {text}});
+    const auto config = load_config({{}, {text}});
     ASSERT_FALSE(config) << text;
     EXPECT_THAT(config.error().front().where, StartsWith("--set")) << text;
   }
 }
 
 TEST(ConfigFile, a_file_that_is_not_there_is_told) {
-  const auto config = load_config({"/no/such.yaml", {}});
+  const auto config = load_config({{"/no/such.yaml"}, {}});
   ASSERT_FALSE(config);
   EXPECT_EQ(config.error().front().code, ErrorCode::kNotFound);
 }

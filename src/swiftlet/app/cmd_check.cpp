@@ -17,7 +17,7 @@ namespace {
 Faults faults_in(const std::string& path) {
   const auto extension = std::filesystem::path(path).extension();
   if (extension != ".yaml" && extension != ".yml") return check_map(path);
-  auto config = load_config({path, {}});
+  auto config = load_config({{path}, {}});
   return config ? Faults{} : std::move(config).error();
 }
 

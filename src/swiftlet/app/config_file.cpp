@@ -10,6 +10,7 @@
 #include "swiftlet/app/config_value.hpp"
 #include "swiftlet/app/nearest_name.hpp"
 #include "swiftlet/file/file_content.hpp"
+#include "swiftlet/file/yaml_document_private.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -19,6 +20,7 @@ struct Setting {
   std::string key;
   YAML::Node value;
   std::string place;  ///< "flight.yaml:3" or "--set"
+  int layer = 0;      ///< files and --set in the order in which they win: later over earlier
 };
 using Settings = std::vector<Setting>;
 
@@ -50,19 +52,14 @@ void flatten(const YAML::Node& group, const std::string& prefix, const std::stri
 
 tl::expected<Settings, Faults> settings_of(const std::string& yaml, const std::string& place) {
   Settings settings;
-  try {
-    const YAML::Node root = YAML::Load(yaml);
-    if (root.IsMap()) {
-      flatten(root, "", place, settings);
-    } else if (root.IsDefined() && !root.IsNull()) {
-      return tl::make_unexpected(Faults{
-          invalid(place, "the file does not hold 'key: value' lines",
-                  "write groups of parameters; 'swiftlet list parameters' tells which there are")});
-    }
-  } catch (const YAML::Exception& e) {
-    return tl::make_unexpected(
-        Faults{invalid(fmt::format("{}:{}", place, e.mark.line + 1), "this is not YAML: " + e.msg,
-                       "mend the line or the one before it")});
+  auto root = parse_yaml(yaml, place);
+  if (!root) return tl::make_unexpected(fault_of(std::move(root)));
+  if (root->IsMap()) {
+    flatten(*root, "", place, settings);
+  } else if (root->IsDefined() && !root->IsNull()) {
+    return tl::make_unexpected(Faults{
+        invalid(place, "the file does not hold 'key: value' lines",
+                "write groups of parameters; 'swiftlet list parameters' tells which there are")});
   }
   return settings;
 }
@@ -74,12 +71,9 @@ tl::expected<Settings, Faults> settings_of_option(const std::string& text) {
     return tl::make_unexpected(
         Faults{invalid("--set " + text, "there is no '='", "write --set key=value")});
   }
-  try {
-    return Settings{{text.substr(0, equals), YAML::Load(text.substr(equals + 1)), "--set"}};
-  } catch (const YAML::Exception& e) {
-    return tl::make_unexpected(
-        Faults{invalid("--set " + text, "the value is not YAML: " + e.msg, "quote it")});
-  }
+  auto value = parse_yaml(text.substr(equals + 1), "--set " + text);
+  if (!value) return tl::make_unexpected(fault_of(std::move(value)));
+  return Settings{{text.substr(0, equals), *value, "--set"}};
 }
 
 Error unknown_key(const Setting& setting) {
@@ -114,12 +108,15 @@ void add_place(Error& fault, const LoadedConfig& config) {
 tl::expected<LoadedConfig, Faults> checked(const Settings& settings) {
   LoadedConfig config;
   Faults faults;
+  std::map<std::string, int> layers;  // that gave each key last
   for (const Setting& setting : settings) {
-    const auto earlier = config.places.find(setting.key);
-    if (earlier != config.places.end() && setting.place != "--set") {
-      faults.push_back(invalid(setting.place, fmt::format("'{}' stands here again", setting.key),
-                               fmt::format("it was given at {}: keep one", earlier->second)));
+    const auto [earlier, is_first] = layers.try_emplace(setting.key, setting.layer);
+    if (!is_first && earlier->second == setting.layer && setting.place != "--set") {
+      faults.push_back(
+          invalid(setting.place, fmt::format("'{}' stands here again", setting.key),
+                  fmt::format("it was given at {}: keep one", config.places.at(setting.key))));
     }
+    earlier->second = setting.layer;
     apply(setting, config, faults);
   }
   if (!faults.empty()) return tl::make_unexpected(std::move(faults));
@@ -133,13 +130,16 @@ tl::expected<LoadedConfig, Faults> checked(const Settings& settings) {
 
 tl::expected<LoadedConfig, Faults> load_config(const ConfigInput& input) {
   Settings settings;
+  int layer = 0;
   const auto append = [&](Settings&& more) {
+    for (Setting& setting : more) setting.layer = layer;
+    ++layer;
     settings.insert(settings.end(), more.begin(), more.end());
   };
-  if (!input.file.empty()) {
-    auto text = read_text_file(input.file, kMostSettingsBytes);
+  for (const std::string& file : input.files) {
+    auto text = read_text_file(file, kMostSettingsBytes);
     if (!text) return tl::make_unexpected(fault_of(std::move(text)));
-    auto from_file = settings_of(*text, input.file);
+    auto from_file = settings_of(*text, file);
     if (!from_file) return tl::make_unexpected(std::move(from_file).error());
     append(std::move(*from_file));
   }

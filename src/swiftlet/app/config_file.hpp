@@ -14,9 +14,9 @@
 
 namespace swiftlet::app {
 
-/// Where the user's parameters are written. Later ones win: defaults, file, settings in order.
+/// Where the user's parameters are written. Later ones win: defaults, files and settings in order.
 struct ConfigInput {
-  std::string file;                   ///< YAML; empty for none
+  std::vector<std::string> files;     ///< YAML, as given with --config
   std::vector<std::string> settings;  ///< "map.voxel_m=0.1", as given with --set
 };
 

@@ -30,7 +30,9 @@ std::string parameters_markdown() {
       "(`--set map.voxel_m=0.1`). The unit is part of the name: `_m` metres, `_px` pixels. A "
       "value\n"
       "with a unit behind it (`20cm`), a name that is not in this table and a value outside its\n"
-      "limits are errors that name the line. What a file does not say keeps its default.\n\n"
+      "limits are errors that name the line. What a file does not say keeps its default. Of "
+      "several\n"
+      "`--config` a later one wins over an earlier, and `--set` over all.\n\n"
       "```yaml\nmap:\n  voxel_m: 0.1\n  size_m: [20, 20, 6]\ndepth:\n  max_range_m: 8\n```\n\n"
       "| parameter | default | limits | meaning |\n|---|---|---|---|\n";
   for (const ParameterRow& row : parameter_table()) {

@@ -25,10 +25,13 @@ void map(Options& o, Visit& visit) {
   visit(ConfigField{"map.size_m", "size of the window that follows the vehicle (x, y, z)", 0.005,
                     10000.0},
         o.size_m);
-  visit(ConfigField{"map.trigger_m",
-                    "how far the vehicle may leave the middle before the window moves (x, y, z)",
-                    0.01, 1000.0},
-        o.trigger_m);
+  visit(
+      ConfigField{
+          "map.trigger_m",
+          "how far the vehicle may leave the middle before the window moves (x, y, z); at most "
+          "half of map.size_m",
+          0.01, 1000.0},
+      o.trigger_m);
 }
 
 template <class Options, class Visit>

@@ -79,6 +79,12 @@ std::vector<Error> MapperConfig::faults() const {
                       "put it first, or leave depth.steps out"});
   }
   if (faults.empty()) keep_fault(faults, "map", RollingMap::create(map));
+  if (faults.empty() && (2.0 * map.trigger_m.array() > map.size_m.array()).any()) {
+    faults.push_back({ErrorCode::kInvalidConfig, "map.trigger_m",
+                      "the region in which the window rests is larger than the window: the vehicle "
+                      "would leave it",
+                      "choose at most half of map.size_m along each axis"});
+  }
   return faults;
 }
 

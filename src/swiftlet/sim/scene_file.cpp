@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "swiftlet/file/file_content.hpp"
+#include "swiftlet/file/yaml_document_private.hpp"
 #include "swiftlet/sim/built_in_scenes.hpp"
 #include "swiftlet/sim/scene_sections_private.hpp"
 
@@ -38,8 +39,7 @@ Scene read_scene(const YAML::Node& root, YamlProblem& problem) {
   read_mount(section, scene.T_body_camera);
   read_tracker(section, scene.tracker);
   read_materials(section, scene.materials);
-  const ObjectReader objects{scene.materials,
-                             std::filesystem::path(problem.file).parent_path().string()};
+  ObjectReader objects{scene.materials, std::filesystem::path(problem.file).parent_path().string()};
   scene.objects = objects.read(section);
   for (YamlSection& mover : section.list("movers")) {
     Mover moving{mover.text("name", "mover"), objects.read(mover), read_flight(mover, "path")};
@@ -56,9 +56,11 @@ Scene read_scene(const YAML::Node& root, YamlProblem& problem) {
 
 Expected<Scene> parse_scene(std::string_view yaml, std::string_view origin) {
   YamlProblem problem{std::string(origin), std::nullopt};
+  auto root = parse_yaml(yaml, problem.file);
+  if (!root) return forward_error(std::move(root));
   // yaml-cpp reports by exception; none passes this function.
   try {
-    Scene scene = read_scene(YAML::Load(std::string(yaml)), problem);
+    Scene scene = read_scene(*root, problem);
     scene.name = std::filesystem::path(origin).stem().string();
     if (!problem.first) return scene;
   } catch (const YAML::Exception& error) {

@@ -15,6 +15,7 @@
 
 #include "swiftlet/base/number_text.hpp"
 #include "swiftlet/file/file_content.hpp"
+#include "swiftlet/file/yaml_document_private.hpp"
 #include "swiftlet/source/frame_tree.hpp"
 
 namespace swiftlet {
@@ -43,8 +44,13 @@ auto with_yaml(const fs::path& file, Read read) -> decltype(read(YAML::Node())) 
         "sensors.yaml, trans_matrix.yaml and the images";
     return forward_error(std::move(text));
   }
+  auto root = parse_yaml(without_directive(std::move(*text)), file.string());
+  if (!root) {
+    root.error().code = ErrorCode::kCorruptInput;  // a recording's, not the user's
+    return forward_error(std::move(root));
+  }
   try {
-    return read(YAML::Load(without_directive(std::move(*text))));
+    return read(*root);
   } catch (const YAML::Exception& error) {
     return fail(ErrorCode::kCorruptInput, fmt::format("{}:{}", file.string(), error.mark.line + 1),
                 "not the YAML of a calibration: " + error.msg);

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "swiftlet/file/file_content.hpp"
+#include "swiftlet/file/yaml_document_private.hpp"
 #include "swiftlet/sim/flight.hpp"
 #include "swiftlet/sim/yaml_section_private.hpp"
 
@@ -157,9 +158,11 @@ RigDescription intel_t265_d435_rig() {
 
 Expected<RigDescription> parse_rig(std::string_view yaml, std::string_view origin) {
   YamlProblem problem{std::string(origin), std::nullopt};
+  auto root = parse_yaml(yaml, problem.file);
+  if (!root) return forward_error(std::move(root));
   // yaml-cpp reports by exception; none passes this function.
   try {
-    RigDescription rig = read_rig(YAML::Load(std::string(yaml)), problem);
+    RigDescription rig = read_rig(*root, problem);
     if (!problem.first) return rig;
   } catch (const YAML::Exception& error) {
     problem.add(error.mark, fmt::format("not YAML: {}", error.msg));
