@@ -66,6 +66,20 @@ TEST(PlyReader, refuses_a_file_cut_at_any_byte) {
     EXPECT_FALSE(read(whole.substr(0, length))) << "cut to " << length;
 }
 
+TEST(PlyReader, refuses_counts_that_the_file_cannot_hold_at_once) {
+  const auto with = [](std::string text, std::string_view from, std::string_view by) {
+    const auto mesh = read(text.replace(text.find(from), from.size(), by));
+    return mesh ? std::string("none") : mesh.error().text();
+  };
+  const std::string endless = "element foo 18446744073709551615\nelement vertex 4";
+  EXPECT_NE(with(ascii_square(), "element vertex 4", endless).find("'foo' has no properties"),
+            std::string::npos);
+  for (const std::string& text : {ascii_square(), binary_square()}) {
+    EXPECT_NE(with(text, "vertex 4", "vertex 4000000000").find("cannot do"), std::string::npos);
+    EXPECT_NE(with(text, "face 1", "face 99999").find("cannot do"), std::string::npos);
+  }
+}
+
 TEST(PlyReader, refuses_what_makes_no_sense) {
   const auto with = [](std::string_view from, std::string_view by) {
     std::string text = ascii_square();

@@ -100,5 +100,27 @@ TEST(RayCaster, sees_a_point_unless_something_stands_before_it) {
   EXPECT_EQ(is_seen, (std::vector<std::uint8_t>{0, 1, 1}));
 }
 
+TEST(RayCaster, refuses_geometry_and_looks_from_beyond_all_reach_instead_of_aborting) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  for (const float far : {1e20F, 3e6F, kNan, std::numeric_limits<float>::infinity()}) {
+    const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, far, 0}}, {{0, 1, 2}}, {0}};
+    const auto caster = RayCaster::create(scene_with({{"far", mesh}}));
+    ASSERT_FALSE(caster) << far;
+    EXPECT_EQ(caster.error().code, ErrorCode::kInvalidConfig);
+  }
+  const auto caster =
+      RayCaster::create(scene_with({{"wall", Plane{{2, 0, 0}, {-1, 0, 0}}}})).value();
+  for (const double far : {-1e20, 1e30, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_FALSE(std::isfinite(cast_one(caster, {far, 0, 0}, {1, 0, 0}).distance)) << far;
+}
+
+TEST(RayCaster, refuses_more_triangles_than_a_machine_can_hold) {
+  const std::vector<Object> pillars(kMaxTriangles / 2000,
+                                    {"", Cylinder{{0, 0, 0}, {0, 0, 1}, 50.0}});
+  const auto caster = RayCaster::create(scene_with(pillars));
+  ASSERT_FALSE(caster);
+  EXPECT_NE(caster.error().what.find("triangles"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace swiftlet::sim

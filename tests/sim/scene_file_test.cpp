@@ -3,6 +3,7 @@
 
 #include "swiftlet/sim/scene_file.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -175,6 +176,33 @@ TEST(SceneFile, finds_meshes_beside_itself) {
   std::filesystem::remove(folder / "roof.ply");
   EXPECT_THAT(load_scene((folder / "house.yaml").string()).error().text(),
               AllOf(HasSubstr("house.yaml:1"), HasSubstr("roof.ply")));
+}
+
+TEST(SceneFile, refuses_what_a_few_bytes_make_endless) {
+  const auto complaint = [](const std::string& yaml) {
+    const auto scene = parse_scene(yaml, "s.yaml");
+    return scene ? std::string("none") : scene.error().text();
+  };
+  const std::string flight = "flight: { waypoints: [ { at_m: [0, 0, 1] } ] }\n";
+  std::string laughs = "boxes: &b0\n  - { from_m: [3, -2, 0], to_m: [4, 2, 2] }\n";
+  for (int i = 1; i < 9; ++i) {
+    laughs += fmt::format("k{0}: &b{0} [", i);
+    for (int k = 0; k < 10; ++k) laughs += fmt::format("*b{}, ", i - 1);
+    laughs += "]\n";
+  }
+  EXPECT_THAT(complaint(laughs + flight), HasSubstr("stands for more than"));
+
+  std::string pillars = flight + "cylinders:\n";
+  for (int i = 0; i < 3000; ++i)
+    pillars += "  - { from_m: [0, 0, 0], to_m: [0, 0, 9], diameter_m: 99 }\n";
+  EXPECT_THAT(complaint(pillars), AllOf(HasSubstr("s.yaml:"), HasSubstr("triangles")));
+
+  EXPECT_THAT(complaint("boxes: [ { from_m: [3, -2, 0], to_m: [3.2, 2, 1e20] } ]\n" + flight),
+              AllOf(HasSubstr("s.yaml:1"), HasSubstr("1000000")));
+  EXPECT_THAT(complaint("planes: [ { centre_m: [3, 0, 0], normal: [1, 0, 0] } ]\n"
+                        "flight: { speed_mps: 1e-9, waypoints: [ { at_m: [0, 0, 1] }, "
+                        "{ at_m: [9, 0, 1] } ] }\n"),
+              HasSubstr("more than a day"));
 }
 
 }  // namespace

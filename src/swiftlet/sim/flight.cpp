@@ -75,6 +75,10 @@ Expected<Flight> Flight::create(std::vector<Waypoint> waypoints, const Sway& swa
   if (std::ranges::adjacent_find(waypoints, not_rising) != waypoints.end()) {
     return fail(ErrorCode::kInvalidConfig, "flight", "the times of the waypoints do not rise");
   }
+  if (!(waypoints.back().time_s - waypoints.front().time_s <= kLongest_s)) {
+    return fail(ErrorCode::kInvalidConfig, "flight", "it would take more than a day",
+                "fly faster or less far");
+  }
   return Flight(std::move(waypoints), sway);
 }
 

@@ -46,7 +46,8 @@ class Flight {
  public:
   /// Rests at the origin.
   Flight() : Flight({Waypoint{}}, Sway{}) {}
-  /// Errors: kInvalidConfig unless there is a waypoint and the times rise.
+  static constexpr double kLongest_s = 86'400.0;
+  /// Errors: kInvalidConfig unless there is a waypoint, the times rise, and all is over in a day.
   [[nodiscard]] static Expected<Flight> create(std::vector<Waypoint> waypoints,
                                                const Sway& sway = {});
 

@@ -48,7 +48,7 @@ Shape read_box(YamlSection& entry) {
 
 Shape read_cylinder(YamlSection& entry) {
   const Cylinder cylinder{entry.vector("from_m"), entry.vector("to_m"),
-                          entry.number("diameter_m", kPositive)};
+                          entry.number("diameter_m", kLength)};
   if (!((cylinder.to_m - cylinder.from_m).norm() > 0.0))
     entry.problem("a cylinder must be longer than 0");
   return cylinder;
@@ -56,7 +56,7 @@ Shape read_cylinder(YamlSection& entry) {
 
 Shape read_plane(YamlSection& entry) {
   const Plane plane{entry.vector("centre_m"), entry.vector("normal"),
-                    entry.number("side_m", kPositive, 200.0)};
+                    entry.number("side_m", kLength, 200.0)};
   if (!(plane.normal.norm() > 0.0)) entry.problem("the normal of a plane must not be zero");
   return plane;
 }
@@ -64,7 +64,7 @@ Shape read_plane(YamlSection& entry) {
 Shape read_mesh(YamlSection& entry, const std::string& folder) {
   const auto path = std::filesystem::path(folder) / entry.text("file");
   const Eigen::Vector3d at_m = entry.vector("at_m", Eigen::Vector3d::Zero());
-  const double scale = entry.number("scale", kPositive, 1.0);
+  const double scale = entry.number("scale", kLength, 1.0);
   const Eigen::Quaterniond R = read_rotation(entry);
   auto mesh = read_ply(path.string());
   if (!mesh) {
@@ -73,6 +73,8 @@ Shape read_mesh(YamlSection& entry, const std::string& folder) {
   }
   for (Eigen::Vector3f& p : mesh->vertices_m)
     p = (R * (scale * p.cast<double>()) + at_m).cast<float>();
+  if (!is_within_reach(mesh->vertices_m))
+    entry.problem("the mesh has corners more than 1000 km away", "check its unit and 'scale'");
   return *std::move(mesh);
 }
 
@@ -90,11 +92,14 @@ std::uint16_t read_material(YamlSection& entry, const std::vector<Material>& mat
 
 }  // namespace
 
-std::vector<Object> ObjectReader::read(YamlSection& parent) const {
+std::vector<Object> ObjectReader::read(YamlSection& parent) {
   std::vector<Object> objects;
   const auto read_all = [&](std::string_view key, auto read_shape) {
     for (YamlSection& entry : parent.list(key)) {
+      if (triangles > kMaxTriangles) return;
       Object object{entry.text("name", ""), read_shape(entry), read_material(entry, materials)};
+      triangles += triangle_count(object);
+      if (triangles > kMaxTriangles) entry.problem(too_many_triangles(), kFewerTriangles);
       objects.push_back(std::move(object));
       entry.finish();
     }

@@ -165,6 +165,41 @@ class PlyFile {
   bool is_binary_ = false;
 };
 
+/// The least that one row of an element takes: in text, a digit and a blank a value.
+std::uint64_t least_bytes(const Element& element, bool is_binary) {
+  std::uint64_t bytes = 0;
+  for (const Property& property : element.properties) {
+    const ScalarType& first = property.count_type ? *property.count_type : *property.type;
+    bytes += is_binary ? first.bytes : 2;
+  }
+  return is_binary ? bytes : bytes - std::min<std::uint64_t>(bytes, 1);
+}
+
+/// Bytes behind the place where a stream stands; nullopt if it cannot tell.
+std::optional<std::uint64_t> bytes_left(std::istream& in) {
+  const auto here = in.tellg();
+  if (here < 0 || !in.seekg(0, std::ios::end)) return std::nullopt;
+  const auto end = in.tellg();
+  in.seekg(here);
+  return static_cast<std::uint64_t>(end - here);
+}
+
+/// Counts are claims: what follows the header must be able to hold them, or nobody would know when
+/// to stop.
+std::optional<std::string> fault_of_counts(const Header& header, std::istream& in) {
+  const auto left = bytes_left(in);
+  for (const Element& element : header.elements) {
+    if (element.count == 0) continue;
+    const std::uint64_t least = least_bytes(element, header.is_binary);
+    if (least == 0) return fmt::format("the element '{}' has no properties", element.name);
+    if (left && element.count > *left / least + 1) {
+      return fmt::format("the header tells of {} '{}', for which the {} bytes behind it cannot do",
+                         element.count, element.name, *left);
+    }
+  }
+  return std::nullopt;
+}
+
 /// The values of one element; a list yields its entries. False at the end of the file.
 bool read_row(PlyFile& file, const Element& element, std::vector<std::vector<double>>& row) {
   constexpr double kMostCorners = 1024;
@@ -226,6 +261,8 @@ Expected<TriangleMesh> read_ply(std::istream& in, const std::string& name) {
   auto header = file.header();
   if (!header) return forward_error(std::move(header));
 
+  if (auto claim = fault_of_counts(*header, in))
+    return file.fault(ErrorCode::kCorruptInput, std::move(*claim));
   TriangleMesh mesh;
   std::vector<std::vector<double>> row;
   for (const Element& element : header->elements) {

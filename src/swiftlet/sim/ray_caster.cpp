@@ -89,6 +89,21 @@ void set_ray(RTCRay8& rays, std::size_t lane, const Eigen::Vector3f& origin,
 
 }  // namespace
 
+namespace {
+
+Status check_size(const Scene& scene) {
+  std::size_t triangles = 0;
+  const auto add = [&](const std::vector<Object>& objects) {
+    for (const Object& object : objects) triangles += triangle_count(object);
+  };
+  add(scene.objects);
+  for (const Mover& mover : scene.movers) add(mover.objects);
+  if (triangles <= kMaxTriangles) return Done{};
+  return fail(ErrorCode::kInvalidConfig, "ray caster", too_many_triangles(), kFewerTriangles);
+}
+
+}  // namespace
+
 struct RayCaster::Embree {
   struct Moving {
     Flight path;
@@ -99,6 +114,11 @@ struct RayCaster::Embree {
 
   /// Triangles of geometry 0, which never move, and of one geometry per mover.
   Expected<unsigned> attach(const TriangleMesh& mesh, bool moves) {
+    if (!is_within_reach(mesh.vertices_m)) {
+      return fail(ErrorCode::kInvalidConfig, "ray caster",
+                  "an object has corners that are no number or more than 2000 km away",
+                  "bring it nearer: rays are cast in floats");
+    }
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                              3 * sizeof(float), mesh.vertices_m.size());
@@ -148,6 +168,7 @@ Expected<RayCaster> RayCaster::create(const Scene& scene) {
   for (const Material& material : scene.materials)
     embree->texture_of_material.push_back(static_cast<float>(material.texture));
 
+  if (auto sane = check_size(scene); !sane) return forward_error(std::move(sane));
   TriangleMesh still;
   for (const Object& object : scene.objects) append_triangles(object, still);
   if (auto id = embree->attach(still, false); !id) return forward_error(std::move(id));
@@ -185,6 +206,10 @@ void RayCaster::move_to(Nanoseconds since_start) {
 void RayCaster::cast(const Eigen::Vector3f& origin_m, std::span<const Eigen::Vector3f> directions,
                      std::span<Hit> hits) const {
   SWIFTLET_REQUIRE(hits.size() == directions.size(), "one hit per ray");
+  if (!is_within_reach({&origin_m, 1})) {  // Embree's assertions would end the program
+    std::ranges::fill(hits, Hit{});
+    return;
+  }
   for (std::size_t first = 0; first < directions.size(); first += kLanes) {
     const std::size_t count = std::min(kLanes, directions.size() - first);
     const Active active(count);
@@ -213,6 +238,10 @@ void RayCaster::cast(const Eigen::Vector3f& origin_m, std::span<const Eigen::Vec
 void RayCaster::look(const Eigen::Vector3f& eye_m, std::span<const Eigen::Vector3f> points_m,
                      std::span<std::uint8_t> is_seen) const {
   SWIFTLET_REQUIRE(is_seen.size() == points_m.size(), "one answer per point");
+  if (!is_within_reach({&eye_m, 1})) {
+    std::ranges::fill(is_seen, std::uint8_t{0});
+    return;
+  }
   for (std::size_t first = 0; first < points_m.size(); first += kLanes) {
     const std::size_t count = std::min(kLanes, points_m.size() - first);
     const Active active(count);

@@ -27,7 +27,8 @@ struct Hit {
 /// object alone.
 class RayCaster {
  public:
-  /// Errors: kOutOfMemory, kUnsupported with Embree's own words.
+  /// Errors: kInvalidConfig for more than kMaxTriangles and for corners beyond is_within_reach();
+  /// kOutOfMemory, kUnsupported with Embree's own words.
   [[nodiscard]] static Expected<RayCaster> create(const Scene& scene);
   RayCaster(RayCaster&&) noexcept;
   RayCaster& operator=(RayCaster&&) noexcept;
@@ -36,8 +37,8 @@ class RayCaster {
   /// Puts the movers where they are at a time. Cost: nothing without movers, else O(objects).
   void move_to(Nanoseconds since_start);
 
-  /// First hits of rays that share an origin; faster if neighbours point in similar directions.
-  /// REQUIRES: hits.size() == directions.size().
+  /// First hits of rays that share an origin, none from beyond is_within_reach(); faster if
+  /// neighbours point in similar directions. REQUIRES: hits.size() == directions.size().
   void cast(const Eigen::Vector3f& origin_m, std::span<const Eigen::Vector3f> directions,
             std::span<Hit> hits) const;
 

@@ -34,7 +34,7 @@ Sway read_sway(YamlSection& flight) {
   auto section = flight.section("sway");
   Sway sway;
   if (!section) return sway;
-  sway.position_m = section->number("position_m", kNotNegative, 0.0);
+  sway.position_m = section->number("position_m", {0.0, 1e6}, 0.0);
   sway.angle_rad = radians(section->number("angle_deg", kNotNegative, 0.0));
   sway.period_s = section->number("period_s", kPositive, sway.period_s);
   section->finish();

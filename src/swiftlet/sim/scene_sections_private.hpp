@@ -24,9 +24,10 @@ void read_materials(YamlSection& scene, std::vector<Material>& materials);
 /// Reads the lists `boxes`, `cylinders`, `planes` and `meshes` of a scene or a mover.
 struct ObjectReader {
   const std::vector<Material>& materials;
-  std::string folder;  ///< where the paths of meshes start
+  std::string folder;         ///< where the paths of meshes start
+  std::size_t triangles = 0;  ///< of all that was read; ends the reading above kMaxTriangles
 
-  [[nodiscard]] std::vector<Object> read(YamlSection& parent) const;
+  [[nodiscard]] std::vector<Object> read(YamlSection& parent);
 };
 
 }  // namespace swiftlet::sim

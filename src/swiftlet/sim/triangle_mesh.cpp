@@ -3,6 +3,8 @@
 
 #include "swiftlet/sim/triangle_mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,6 +13,13 @@
 
 namespace swiftlet::sim {
 namespace {
+
+std::uint32_t sides_of(const Cylinder& cylinder) {
+  const double radius_m = 0.5 * cylinder.diameter_m;
+  const double half_angle = std::acos(std::max(0.0, 1.0 - kMaxSagitta_m / radius_m));
+  return static_cast<std::uint32_t>(
+      std::clamp(std::ceil(std::numbers::pi / half_angle), 16.0, 512.0));
+}
 
 /// Adds the vertices and triangles of one object, numbered from 0, to a mesh that has others.
 class Appender {
@@ -57,9 +66,7 @@ class Appender {
     const Eigen::Vector3d axis = cylinder.to_m - cylinder.from_m;
     const Eigen::Quaterniond R = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis);
     const double radius_m = 0.5 * cylinder.diameter_m;
-    const double half_angle = std::acos(std::max(0.0, 1.0 - kMaxSagitta_m / radius_m));
-    const auto sides = static_cast<std::uint32_t>(
-        std::clamp(std::ceil(std::numbers::pi / half_angle), 16.0, 512.0));
+    const std::uint32_t sides = sides_of(cylinder);
     // Corners as far outside the circle as the middles of the sides are inside.
     const double corner_m = 2.0 * radius_m / (1.0 + std::cos(std::numbers::pi / sides));
 
@@ -96,6 +103,24 @@ class Appender {
 
 void append_triangles(const Object& object, TriangleMesh& mesh) {
   std::visit(Appender(mesh, object.material), object.shape);
+}
+
+std::size_t triangle_count(const Object& object) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) return mesh->triangles.size();
+  if (const auto* cylinder = std::get_if<Cylinder>(&object.shape))
+    return std::size_t{4} * sides_of(*cylinder);
+  return std::holds_alternative<Box>(object.shape) ? 12 : 2;
+}
+
+std::string too_many_triangles() {
+  return fmt::format("the scene has more than {} triangles", kMaxTriangles);
+}
+
+bool is_within_reach(std::span<const Eigen::Vector3f> points_m) {
+  constexpr float kReach_m = 2e6F;
+  return std::ranges::all_of(points_m, [](const Eigen::Vector3f& p) {
+    return p.cwiseAbs().maxCoeff() <= kReach_m && p.allFinite();
+  });
 }
 
 }  // namespace swiftlet::sim

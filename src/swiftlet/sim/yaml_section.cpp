@@ -15,7 +15,10 @@ namespace swiftlet::sim {
 namespace {
 
 std::string allowed(const Limits& limits) {
-  if (std::isfinite(limits.high)) return fmt::format("from {} to {}", limits.low, limits.high);
+  if (std::isfinite(limits.high)) {
+    return fmt::format("{} {} to {}", limits.low_is_allowed ? "from" : "greater than", limits.low,
+                       limits.high);
+  }
   if (std::isfinite(limits.low))
     return fmt::format("{} {}", limits.low_is_allowed ? "at least" : "greater than", limits.low);
   return "any finite number";
@@ -89,8 +92,7 @@ Eigen::Vector3d YamlSection::vector(std::string_view key,
                   "write it as [x, y, z]");
     return Eigen::Vector3d::Zero();
   }
-  return {scalar(node[0], key, kAnyNumber), scalar(node[1], key, kAnyNumber),
-          scalar(node[2], key, kAnyNumber)};
+  return {scalar(node[0], key, kPlace), scalar(node[1], key, kPlace), scalar(node[2], key, kPlace)};
 }
 
 std::vector<double> YamlSection::numbers(std::string_view key, std::size_t count) {

@@ -27,6 +27,9 @@ inline constexpr Limits kAnyNumber{};
 inline constexpr Limits kPositive{0.0, std::numeric_limits<double>::infinity(), false};
 inline constexpr Limits kNotNegative{0.0};
 inline constexpr Limits kFraction{0.0, 1.0};
+/// Places and lengths [m]: a scene's geometry is in floats, and the map ends there, too.
+inline constexpr Limits kPlace{-1e6, 1e6};
+inline constexpr Limits kLength{0.0, 1e6, false};
 
 /// The first thing that is wrong with a file; later ones are often its consequences.
 struct YamlProblem {
@@ -46,6 +49,7 @@ class YamlSection {
   [[nodiscard]] bool has(std::string_view key);
   [[nodiscard]] double number(std::string_view key, const Limits& limits = kAnyNumber,
                               std::optional<double> fallback = std::nullopt);
+  /// A place or a direction; within kPlace.
   [[nodiscard]] Eigen::Vector3d vector(
       std::string_view key, const std::optional<Eigen::Vector3d>& fallback = std::nullopt);
   /// A list of exactly so many numbers.
