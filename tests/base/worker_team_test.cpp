@@ -4,8 +4,11 @@
 #include "swiftlet/base/worker_team.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <fstream>
 #include <numeric>
 
 namespace swiftlet {
@@ -37,6 +40,28 @@ TEST(WorkerTeam, wakes_after_sleep_and_returns_only_when_the_slowest_has) {
     EXPECT_EQ(done, 3);
   }
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need all addresses
+TEST(WorkerTeam, works_with_the_threads_that_the_system_grants) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const auto in_use = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  rlimit narrow = before;
+  narrow.rlim_cur = in_use + (std::size_t{200} << 20U);  // stacks of 8 MB, for some but not for all
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &narrow), 0);
+  {
+    WorkerTeam team(64);
+    EXPECT_GE(team.threads(), 1);
+    EXPECT_LT(team.threads(), 64);
+    std::atomic<int> calls{0};
+    team.run([&](int) { ++calls; });
+    EXPECT_EQ(calls, team.threads());
+  }
+  setrlimit(RLIMIT_AS, &before);
+}
+#endif
 
 }  // namespace
 }  // namespace swiftlet

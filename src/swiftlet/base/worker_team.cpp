@@ -3,6 +3,8 @@
 
 #include "swiftlet/base/worker_team.hpp"
 
+#include <system_error>
+
 #include "swiftlet/base/contract.hpp"
 
 namespace swiftlet {
@@ -24,8 +26,13 @@ std::uint32_t wait_beyond(const std::atomic<std::uint32_t>& value, std::uint32_t
 WorkerTeam::WorkerTeam(int threads) {
   SWIFTLET_REQUIRE(threads >= 1, "the owner is one of the threads");
   workers_.reserve(static_cast<std::size_t>(threads - 1));
-  for (int worker = 1; worker < threads; ++worker)
-    workers_.emplace_back([this, worker] { serve(worker); });
+  // Thrown on, the fault would find the threads before it running, and that ends the program.
+  try {
+    for (int worker = 1; worker < threads; ++worker)
+      workers_.emplace_back([this, worker] { serve(worker); });
+  } catch (const std::system_error&) {
+    return;
+  }
 }
 
 WorkerTeam::~WorkerTeam() {

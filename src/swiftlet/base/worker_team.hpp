@@ -16,7 +16,8 @@ namespace swiftlet {
 /// from one thread at a time.
 class WorkerTeam {
  public:
-  /// `threads`: with the owner; 1 starts none. REQUIRES: threads >= 1.
+  /// `threads`: with the owner; 1 starts none. Where the system refuses one there are fewer, and
+  /// threads() tells. REQUIRES: threads >= 1.
   explicit WorkerTeam(int threads);
   ~WorkerTeam();
   WorkerTeam(const WorkerTeam&) = delete;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -63,6 +65,8 @@ class ProjectiveIntegrator final : public Integrator {
         limit_(options.max_frame_ms),
         team_(options.threads),
         workers_(static_cast<std::size_t>(options.threads)) {}
+
+  [[nodiscard]] int threads() const { return team_.threads(); }
 
   IntegrationTally integrate(const DepthView& view, const StereoSensor& sensor,
                              RollingMap& map) override {
@@ -159,7 +163,12 @@ class ProjectiveIntegrator final : public Integrator {
 }  // namespace
 
 Expected<std::unique_ptr<Integrator>> make_projective(const IntegrateOptions& options) {
-  return std::make_unique<ProjectiveIntegrator>(options);
+  auto integrator = std::make_unique<ProjectiveIntegrator>(options);
+  if (integrator->threads() == options.threads) return integrator;
+  return fail(ErrorCode::kOutOfMemory, "integrate.threads",
+              fmt::format("the system grants only {} of {} threads", integrator->threads(),
+                          options.threads),
+              "ask for fewer or raise its limit ('ulimit -u', memory)");
 }
 
 }  // namespace swiftlet
