@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <cstring>
 
 #if SWIFTLET_HAS_OCTOMAP
 #include "store/octomap_leaves.hpp"
@@ -134,6 +135,52 @@ TEST(Exporters, report_progress_up_to_one) {
     last = fraction;
   }));
   EXPECT_EQ(last, 1.0);
+}
+
+/// Points that begin with three numbers of a type, in files whose header ends with a line.
+template <class Number>
+std::vector<VoxelIndex> cells_of_binary(const std::filesystem::path& path,
+                                        std::string_view last_line, std::size_t point_bytes,
+                                        const Eigen::Vector3d& origin_m) {
+  const auto bytes = test::bytes_of(path);
+  const std::string_view text(bytes.data(), bytes.size());
+  std::vector<VoxelIndex> cells;
+  for (std::size_t at = text.find(last_line) + last_line.size(); at + point_bytes <= text.size();
+       at += point_bytes) {
+    Eigen::Matrix<Number, 3, 1> p;
+    std::memcpy(p.data(), text.data() + at, sizeof p);
+    cells.push_back(voxel_containing(p.template cast<double>() + origin_m, 0.05));
+  }
+  std::ranges::sort(cells);
+  return cells;
+}
+
+TEST(Exporters, distinct_cells_keep_distinct_points_far_from_the_origin) {
+  Random random;
+  const TempFolder folder;
+  const BlockIndex far{2'250'000, -13'500'000 / 8, 625};  // 900 km east, 675 km south
+  const VoxelBlock block = test::random_block(random);
+  auto store = TileStore::create(folder / "far.swl", 0.05);
+  (*store)->evict(far, block, 1);
+  ASSERT_TRUE((*store)->close());
+  std::vector<VoxelIndex> occupied;
+  for (int offset = 0; offset < kBlockVoxels; ++offset) {
+    if (kThresholds.classify(block.cells[static_cast<std::size_t>(offset)]) == Occupancy::kOccupied)
+      occupied.push_back(voxel_at(far, offset));
+  }
+  std::ranges::sort(occupied);
+  const auto map = load_map(folder / "far.swl");
+  ASSERT_TRUE(export_map("ply", *map, kThresholds, folder / "far.ply"));
+  EXPECT_EQ(cells_of_binary<double>(folder / "far.ply", "end_header\n", 28, {0, 0, 0}), occupied);
+
+  ASSERT_TRUE(export_map("pcd", *map, kThresholds, folder / "far.pcd"));
+  const auto origin = pcd_origin(*map, kThresholds);
+  ASSERT_TRUE(origin);
+  EXPECT_EQ(cells_of_binary<float>(folder / "far.pcd", "DATA binary\n", 16, *origin), occupied);
+  EXPECT_EQ(lines_of(folder / "far.pcd")[1], "# add (" + std::to_string(std::llround(origin->x())) +
+                                                 ", " + std::to_string(std::llround(origin->y())) +
+                                                 ", " + std::to_string(std::llround(origin->z())) +
+                                                 ") m to every point");
 }
 
 #if SWIFTLET_HAS_OCTOMAP

@@ -122,13 +122,18 @@ Error nothing_mapped(const MappingSummary& summary, const MapperConfig& config) 
     return {ErrorCode::kNotFound, summary.source, "interrupted before anything was mapped", {}};
   }
   std::string reasons;
+  const bool is_far = summary.verdicts[static_cast<std::size_t>(FrameVerdict::kPoseOutOfRange)] > 0;
   for (const auto& [reason, count] : summary.dropped()) {
     reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
   }
   return {ErrorCode::kCorruptInput, summary.source,
           fmt::format("no frame could be mapped ({})", reasons.empty() ? "there is none" : reasons),
-          fmt::format("check its poses and that it has depth readings from {} to {} m",
-                      config.depth.min_range_m, config.depth.max_range_m)};
+          is_far
+              ? fmt::format("maps end {} km from the origin: take an offset away from the poses, "
+                            "as of UTM coordinates",
+                            RollingMap::kMaxCoordinate_m * 1e-3)
+              : fmt::format("check its poses and that it has depth readings from {} to {} m",
+                            config.depth.min_range_m, config.depth.max_range_m)};
 }
 
 /// Saves what there is, whether the flight ended well or not, and tells of it.

@@ -22,6 +22,12 @@ using ExportProgress = std::function<void(double fraction)>;
 using ExportMap = Status (*)(const SavedMap& map, const OccupancyThresholds& thresholds,
                              const std::filesystem::path& out, const ExportProgress& progress);
 
+/// What is to be added to every point of the PCD of a map [m]: zero but far from the origin, where
+/// floats, the only coordinates that PCL takes, no longer tell cells apart. (PLY has doubles
+/// there.)
+[[nodiscard]] Expected<Eigen::Vector3d> pcd_origin(const SavedMap& map,
+                                                   const OccupancyThresholds& thresholds);
+
 /// All formats, built or not (null), in the order of `swiftlet list`.
 [[nodiscard]] std::span<const Registered<ExportMap>> exporters();
 

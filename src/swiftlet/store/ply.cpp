@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 
 #include "swiftlet/store/exporters.hpp"
+#include "swiftlet/store/far_points.hpp"
 #include "swiftlet/store/known_cells.hpp"
 #include "swiftlet/store/output_file.hpp"
 
@@ -28,15 +30,15 @@ Rgb height_colour(double fraction) {
   return {hill(3.0), hill(2.0), hill(1.0)};
 }
 
-std::string header(std::uint64_t points, const SavedMap& map) {
+std::string header(std::uint64_t points, const SavedMap& map, std::string_view coordinate) {
   return fmt::format(
       "ply\nformat binary_little_endian 1.0\n"
-      "comment Swiftlet: centres of occupied cells, {} m, world frame, z up\n"
-      "element vertex {}\n"
-      "property float x\nproperty float y\nproperty float z\n"
+      "comment Swiftlet: centres of occupied cells, {0} m, world frame, z up\n"
+      "element vertex {1}\n"
+      "property {2} x\nproperty {2} y\nproperty {2} z\n"
       "property uchar red\nproperty uchar green\nproperty uchar blue\n"
       "property uchar logodds\nend_header\n",
-      map.voxel_m(), points);
+      map.voxel_m(), points, coordinate);
 }
 
 }  // namespace
@@ -47,14 +49,17 @@ Status export_ply(const SavedMap& map, const OccupancyThresholds& thresholds,
   if (!summary) return forward_error(std::move(summary));
   auto file = OutputFile::create(out);
   if (!file) return forward_error(std::move(file));
-  file->write(header(summary->count(Occupancy::kOccupied), map));
+  const bool is_float = floats_suffice(summary->bounds);
+  file->write(header(summary->count(Occupancy::kOccupied), map, is_float ? "float" : "double"));
   const VoxelBox box = summary->bounds.value_or(VoxelBox{});
   const double height = std::max(1, box.last.z - box.first.z);
   auto passed = for_each_known_cell(
       map, thresholds, progress, [&](const VoxelIndex& v, LogOdds cell, Occupancy state) {
         if (state != Occupancy::kOccupied) return;
-        const Eigen::Vector3f p_world = centre_of(v, map.voxel_m()).cast<float>();
-        for (const float c : {p_world.x(), p_world.y(), p_world.z()}) file->write_little_endian(c);
+        for (const double c : centre_of(v, map.voxel_m())) {
+          is_float ? file->write_little_endian(static_cast<float>(c))
+                   : file->write_little_endian(c);
+        }
         const Rgb colour = height_colour((v.z - box.first.z) / height);
         for (const std::uint8_t c : {colour.red, colour.green, colour.blue, cell}) {
           file->write_little_endian(c);
