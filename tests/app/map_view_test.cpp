@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <limits>
 #include <ostream>
 
 #include "support/seeds.hpp"
@@ -71,6 +73,29 @@ TEST_P(EveryView, refuses_a_map_of_unknown_cells_and_a_picture_without_end) {
   EXPECT_EQ(draw_view(GetParam().name, wide, {}).error().code, ErrorCode::kUsage);
 }
 
+TEST_P(EveryView, draws_two_blocks_a_kilometre_apart_small_and_soon) {
+  LoadedMap map;
+  set(map, {0, 0, 0}, kOccupiedCell);
+  set(map, {5000, 5000, 5000}, kOccupiedCell);
+  const auto start = std::chrono::steady_clock::now();
+  const auto picture = draw_view(GetParam().name, map, {});
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  ASSERT_TRUE(picture) << picture.error().text();
+  EXPECT_LT(picture->pixels().size(), 12'000'000U);
+  EXPECT_GT(joined_cells(map, {}), 1) << "and this is told";
+  EXPECT_EQ(joined_cells(pillar(), {}), 1);
+}
+
+TEST_P(EveryView, draws_cells_of_any_size_and_a_start_that_is_nowhere) {
+  for (const double voxel_m : {1e300, 1e-300}) {
+    LoadedMap map = pillar();
+    map.voxel_m = voxel_m;
+    map.start_m = {1e300, std::numeric_limits<double>::quiet_NaN(), -1e300};
+    EXPECT_TRUE(draw_view(GetParam().name, map, {})) << voxel_m;
+    EXPECT_TRUE(draw_view(GetParam().name, map, {std::numeric_limits<double>::quiet_NaN(), 4}));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, EveryView, ::testing::ValuesIn(map_views().begin(), map_views().end()),
                          [](const auto& view) { return std::string(view.param.name); });
 
@@ -127,6 +152,18 @@ TEST(Polygon, two_that_share_an_edge_leave_no_gap_and_do_not_overlap) {
     fill_polygon(right, std::array{top, b, d, low}, {0, 0, 0});
     EXPECT_EQ(pixels_of(left, {0, 0, 0}) + pixels_of(right, {0, 0, 0}), 32U * 32U);
   });
+}
+
+TEST(CoarserMap, keeps_matter_before_emptiness_on_both_sides_of_the_origin) {
+  LoadedMap map;
+  set(map, {-1, -3, 2}, kOccupiedCell);
+  for (std::int32_t x = -3; x < 3; ++x) set(map, {x, 0, 0}, kFreeCell);
+  const LoadedMap large = coarser(map, 3);
+  EXPECT_DOUBLE_EQ(large.voxel_m, 3 * map.voxel_m);
+  EXPECT_EQ(large.state({-1, -1, 0}), Occupancy::kOccupied);
+  EXPECT_EQ(large.state({-1, 0, 0}), Occupancy::kFree);
+  EXPECT_EQ(large.state({0, 0, 0}), Occupancy::kFree);
+  EXPECT_EQ(large.state({0, -1, 0}), Occupancy::kUnknown);
 }
 
 TEST(HeightColour, runs_from_dark_to_bright) {

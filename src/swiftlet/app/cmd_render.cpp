@@ -32,7 +32,11 @@ Faults render(const RenderOptions& options) {
   if (auto written = write_png(*picture, options.out); !written) {
     return fault_of(std::move(written));
   }
-  fmt::print("{} ({} x {} pixels)\n", options.out, picture->width(), picture->height());
+  const int joined = joined_cells(*map, options.how);
+  const std::string scale =
+      joined > 1 ? fmt::format("; {0} x {0} x {0} cells drawn as one, --scale forbids it", joined)
+                 : "";
+  fmt::print("{} ({} x {} pixels{})\n", options.out, picture->width(), picture->height(), scale);
   return {};
 }
 
@@ -40,7 +44,7 @@ Faults render(const RenderOptions& options) {
 
 Action declare_render(CLI::App& parser) {
   auto o = std::make_shared<RenderOptions>();
-  parser.add_option("MAP", o->map, "map file")->type_name("")->required();
+  parser.add_option("MAP", o->map, "map file: .swl, .bt or .ot")->type_name("")->required();
   parser.add_option("-o,--out", o->out, "PNG picture to write")->type_name("FILE")->required();
   parser.add_option("--view", o->view, "see 'swiftlet list views'")
       ->type_name("NAME")
@@ -60,8 +64,8 @@ Action declare_render(CLI::App& parser) {
       "  swiftlet render flat.swl -o plan.png                          from above\n"
       "  swiftlet render flat.swl -o slice.png --view slice --z 0.5    one layer\n"
       "  swiftlet render flat.swl -o flat.png --view iso --z 1.2       in 3-D, ceiling cut away\n"
-      "In pictures from above x (forward) is up and y is left; ticks stand a metre apart and the\n"
-      "cross marks where the flight began.");
+      "In pictures from above x (forward) is up and y is left; ticks stand a metre apart (in\n"
+      "large maps 2, 5, 10 ..) and the cross marks where the flight began.");
   return [o] { return render(*o); };
 }
 

@@ -15,6 +15,18 @@ constexpr int kLongTick_px = 12;
 constexpr Colour kPaper{255, 255, 255};
 constexpr Colour kInk{70, 70, 70};
 constexpr Colour kStartInk{214, 39, 40};
+constexpr double kLeastTick_px = 4.0;  // between two ticks
+
+/// 1 m, or the first of 2, 5, 10, 20 .. that keeps ticks apart, however large the cells.
+double metres_between_ticks(double px_per_m) {
+  double step_m = 1.0;
+  for (int i = 0; step_m * px_per_m < kLeastTick_px && std::isfinite(step_m); ++i)
+    step_m *= i % 3 == 1 ? 2.5 : 2.0;
+  return step_m;
+}
+
+/// Far outside any picture is outside.
+int whole_px(double px) { return static_cast<int>(std::lround(std::clamp(px, -1e6, 1e6))); }
 
 }  // namespace
 
@@ -23,6 +35,7 @@ FloorPlan::FloorPlan(const LoadedMap& map, const VoxelBox& box, int cell_px)
       voxel_m_(map.voxel_m),
       start_m_(map.start_m),
       cell_px_(cell_px),
+      tick_m_(metres_between_ticks(cell_px / map.voxel_m)),
       picture_((box.last.y - box.first.y + 1) * cell_px + 2 * kMargin_px,
                (box.last.x - box.first.x + 1) * cell_px + 2 * kMargin_px, kPaper) {}
 
@@ -33,18 +46,18 @@ void FloorPlan::fill_column(std::int32_t x, std::int32_t y, Colour colour) {
 }
 
 int FloorPlan::column_px(double y_m) const {
-  return kMargin_px + static_cast<int>(std::lround((box_.last.y + 1 - y_m / voxel_m_) * cell_px_));
+  return kMargin_px + whole_px((box_.last.y + 1 - y_m / voxel_m_) * cell_px_);
 }
 
 int FloorPlan::row_px(double x_m) const {
-  return kMargin_px + static_cast<int>(std::lround((box_.last.x + 1 - x_m / voxel_m_) * cell_px_));
+  return kMargin_px + whole_px((box_.last.x + 1 - x_m / voxel_m_) * cell_px_);
 }
 
 void FloorPlan::draw_ticks() {
   const auto metres_in = [this](std::int32_t first, std::int32_t last, auto&& draw) {
-    const double end_m = (last + 1) * voxel_m_;
-    for (double m = std::ceil(first * voxel_m_); m <= end_m; m += 1.0) {
-      draw(m, std::fmod(m, 5.0) == 0.0 ? kLongTick_px : kTick_px);
+    const double end = (last + 1.0) * voxel_m_ / tick_m_;
+    for (double tick = std::ceil(first * voxel_m_ / tick_m_); tick <= end; tick += 1.0) {
+      draw(tick * tick_m_, std::fmod(tick, 5.0) == 0.0 ? kLongTick_px : kTick_px);
     }
   };
   const int right = picture_.width() - kMargin_px;
@@ -62,14 +75,15 @@ void FloorPlan::draw_ticks() {
 }
 
 void FloorPlan::draw_scale_bar() {
-  const int metre_px = static_cast<int>(std::lround(cell_px_ / voxel_m_));
+  const int bar_px = whole_px(tick_m_ / voxel_m_ * cell_px_);
   const int bottom = picture_.height() - 4;
-  fill_rectangle(picture_, kMargin_px, bottom - 5, kMargin_px + metre_px, bottom, kInk);
-  fill_rectangle(picture_, kMargin_px + metre_px / 2, bottom - 4, kMargin_px + metre_px - 1,
-                 bottom - 1, kPaper);
+  fill_rectangle(picture_, kMargin_px, bottom - 5, kMargin_px + bar_px, bottom, kInk);
+  fill_rectangle(picture_, kMargin_px + bar_px / 2, bottom - 4, kMargin_px + bar_px - 1, bottom - 1,
+                 kPaper);
 }
 
 void FloorPlan::draw_start() {
+  if (!start_m_.allFinite()) return;
   const int u = column_px(start_m_.y());
   const int v = row_px(start_m_.x());
   fill_rectangle(picture_, u - 6, v - 1, u + 7, v + 2, kStartInk);
@@ -83,16 +97,26 @@ Picture FloorPlan::finish() && {
   return std::move(picture_);
 }
 
-Column column_at(const LoadedMap& map, const VoxelBox& box, std::int32_t x, std::int32_t y) {
-  Column column;
-  for (std::int32_t z = box.first.z; z <= box.last.z; ++z) {
-    const Occupancy cell = map.state({x, y, z});
-    column.free += cell == Occupancy::kFree ? 1 : 0;
-    if (cell != Occupancy::kOccupied) continue;
-    ++column.occupied;
-    column.highest = z;
-  }
-  return column;
+Columns::Columns(const LoadedMap& map, const VoxelBox& box) {
+  map.for_each_known_cell([&](const VoxelIndex& v, Occupancy state) {
+    if (v.z < box.first.z || v.z > box.last.z) return;
+    Column& column = by_block_[block_of({v.x, v.y, 0})][offset_in_block({v.x, v.y, 0})];
+    column.free += state == Occupancy::kFree ? 1 : 0;
+    if (state != Occupancy::kOccupied) return;
+    if (column.occupied++ == 0 || v.z > column.highest) column.highest = v.z;
+  });
+}
+
+Column Columns::at(std::int32_t x, std::int32_t y) const {
+  const auto found = by_block_.find(block_of({x, y, 0}));
+  return found == by_block_.end() ? Column{} : found->second[offset_in_block({x, y, 0})];
+}
+
+std::int32_t layer_at(double m, double voxel_m) {
+  constexpr double kFarthest = 1 << 30;
+  const double layer = std::floor(m / voxel_m);
+  return std::isnan(layer) ? 0
+                           : static_cast<std::int32_t>(std::clamp(layer, -kFarthest, kFarthest));
 }
 
 std::optional<std::int32_t> lowest_matter(const LoadedMap& map, const VoxelBox& box) {
@@ -107,9 +131,7 @@ std::optional<std::int32_t> lowest_matter(const LoadedMap& map, const VoxelBox& 
 VoxelBox cut_box(const VoxelBox& box, double voxel_m, const ViewOptions& options) {
   VoxelBox cut = box;
   if (!options.z_m) return cut;
-  const double top = std::floor(*options.z_m / voxel_m);
-  cut.last.z = static_cast<std::int32_t>(
-      std::clamp(top, static_cast<double>(box.first.z) - 1.0, static_cast<double>(box.last.z)));
+  cut.last.z = std::clamp(layer_at(*options.z_m, voxel_m), box.first.z - 1, box.last.z);
   return cut;
 }
 

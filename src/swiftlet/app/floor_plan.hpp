@@ -3,13 +3,19 @@
 
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+
 #include "swiftlet/app/map_view.hpp"
 
 namespace swiftlet::app {
 
 /// A picture of the world from above, one square per column of cells: x forward is up, y left is
-/// left. Around it a margin with a tick every metre (longer every five) and a bar of one metre in
-/// the lower left corner; a cross marks where the flight began.
+/// left. Around it a margin with a tick every metre (longer every five; in large maps every 2, 5,
+/// 10 .. metres) and in the lower left corner a bar from one tick to the next; a cross marks where
+/// the flight began.
 class FloorPlan {
  public:
   FloorPlan(const LoadedMap& map, const VoxelBox& box, int cell_px);
@@ -31,6 +37,7 @@ class FloorPlan {
   double voxel_m_;
   Eigen::Vector3d start_m_;
   int cell_px_;
+  double tick_m_;  // between two ticks
   Picture picture_;
 };
 
@@ -40,8 +47,20 @@ struct Column {
   int free = 0;
   std::int32_t highest = 0;  ///< z of the highest occupied cell; 0 if there is none
 };
-[[nodiscard]] Column column_at(const LoadedMap& map, const VoxelBox& box, std::int32_t x,
-                               std::int32_t y);
+
+/// The columns of a box, counted in one pass over the blocks: most of a large box may be empty.
+class Columns {
+ public:
+  Columns(const LoadedMap& map, const VoxelBox& box);
+  [[nodiscard]] Column at(std::int32_t x, std::int32_t y) const;
+
+ private:
+  static constexpr std::size_t kOfBlock = kBlockEdge * kBlockEdge;
+  std::unordered_map<BlockIndex, std::array<Column, kOfBlock>, BlockHash> by_block_;  // z = 0
+};
+
+/// The layer of cells at a coordinate, whatever the number is; 0 for NaN.
+[[nodiscard]] std::int32_t layer_at(double m, double voxel_m);
 
 /// z of the lowest occupied cell in a box: the foot of the scale of heights.
 [[nodiscard]] std::optional<std::int32_t> lowest_matter(const LoadedMap& map, const VoxelBox& box);

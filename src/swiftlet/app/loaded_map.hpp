@@ -45,4 +45,7 @@ struct LoadedMap {
 
 [[nodiscard]] CellCounts count_cells(const LoadedMap& map);
 
+/// The map in cells of so many along each axis: occupied if one of them is, else free if one is.
+[[nodiscard]] LoadedMap coarser(const LoadedMap& map, int cells);
+
 }  // namespace swiftlet::app

@@ -23,8 +23,13 @@ using DrawView = Picture (*)(const LoadedMap& map, const VoxelBox& box, const Vi
 /// All views there are.
 [[nodiscard]] std::span<const Registered<DrawView>> map_views();
 
-/// Draws a map. Errors: kUsage for an unknown view or a picture above 200 megapixels; kNotFound if
-/// the map holds no free or occupied cell to draw.
+/// How many cells along each axis draw_view() draws as one, because the map is too wide to draw
+/// each and the user has not chosen a scale: 1 for most maps. A cube that holds matter is drawn as
+/// matter. 0: no picture shows it.
+[[nodiscard]] int joined_cells(const LoadedMap& map, const ViewOptions& options);
+
+/// Draws a map. Errors: kUsage for an unknown view, a picture above 64 megapixels and a map that no
+/// picture shows; kNotFound if the map holds no free or occupied cell to draw.
 [[nodiscard]] Expected<Picture> draw_view(std::string_view view, const LoadedMap& map,
                                           const ViewOptions& options);
 

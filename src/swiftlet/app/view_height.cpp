@@ -18,8 +18,9 @@ Picture draw_height(const LoadedMap& map, const VoxelBox& whole, const ViewOptio
   const std::int32_t low = lowest_matter(map, box).value_or(box.first.z);
   const int span = std::max(1, box.last.z - low);
   FloorPlan plan(map, box, options.cell_px);
+  const Columns columns(map, box);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
-    const Column column = column_at(map, box, x, y);
+    const Column column = columns.at(x, y);
     const double height = static_cast<double>(column.highest - low) / span;
     const Colour empty = column.free > 0 ? kFree : kUnseen;
     plan.fill_column(x, y, column.occupied > 0 ? height_colour(height) : empty);

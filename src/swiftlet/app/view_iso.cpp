@@ -137,14 +137,16 @@ Picture draw_iso(const LoadedMap& map, const VoxelBox& whole, const ViewOptions&
     if (state == Occupancy::kOccupied && v.z <= box.last.z) cells.push_back(v);
   });
   std::ranges::sort(cells, [](const VoxelIndex& a, const VoxelIndex& b) {
-    const int far_a = a.x + a.y - a.z, far_b = b.x + b.y - b.z;
+    const auto far = [](const VoxelIndex& v) { return std::int64_t{v.x} + v.y - v.z; };
+    const std::int64_t far_a = far(a), far_b = far(b);
     return far_a != far_b ? far_a > far_b : a < b;  // the order of a hash map must not show
   });
   // The floor lies under the lowest matter, not under the lowest free cell.
   box.first.z = lowest_matter(map, box).value_or(box.first.z);
   IsoDrawing drawing(map, box, options.cell_px);
+  const Columns columns(map, box);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
-    const Column column = column_at(map, box, x, y);
+    const Column column = columns.at(x, y);
     if (column.free + column.occupied > 0) drawing.draw_floor(x, y);
   });
   for (const VoxelIndex& cell : cells) drawing.draw_cell(cell);

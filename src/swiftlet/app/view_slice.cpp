@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include <cmath>
-
 #include "swiftlet/app/floor_plan.hpp"
 
 namespace swiftlet::app {
@@ -17,8 +15,7 @@ constexpr Colour kUnknown{255, 255, 255};
 /// The thesis's 2-D map (method 10): the camera-height layer where the flight began,
 /// unless told otherwise.
 Picture draw_slice(const LoadedMap& map, const VoxelBox& box, const ViewOptions& options) {
-  const auto z =
-      static_cast<std::int32_t>(std::floor(options.z_m.value_or(map.start_m.z()) / map.voxel_m));
+  const std::int32_t z = layer_at(options.z_m.value_or(map.start_m.z()), map.voxel_m);
   FloorPlan plan(map, box, options.cell_px);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
     const Occupancy cell = map.state({x, y, z});

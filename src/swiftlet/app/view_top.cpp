@@ -18,8 +18,9 @@ constexpr double kFullHeight_m = 1.5;  // a column with this much matter is draw
 Picture draw_top(const LoadedMap& map, const VoxelBox& whole, const ViewOptions& options) {
   const VoxelBox box = cut_box(whole, map.voxel_m, options);
   FloorPlan plan(map, box, options.cell_px);
+  const Columns columns(map, box);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
-    const Column column = column_at(map, box, x, y);
+    const Column column = columns.at(x, y);
     Colour colour = column.free > 0 ? kFree : kUnseen;
     if (column.occupied > 0) {
       const double matter = std::min(1.0, column.occupied * map.voxel_m / kFullHeight_m);
