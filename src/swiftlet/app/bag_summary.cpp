@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "swiftlet/app/summary.hpp"
+#include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/bag/bag_reader.hpp"
 #include "swiftlet/bag/ros_messages.hpp"
 
@@ -61,16 +62,17 @@ Expected<BagSummary> summarize_bag(const std::string& path) {
 }
 
 std::string bag_text(const BagSummary& bag) {
-  std::string text = fmt::format("{} ({}): ROS bag 2.0, {} chunks ({})\n", bag.path,
+  std::string text = fmt::format("{} ({}): ROS bag 2.0, {} chunks ({})\n", visible(bag.path),
                                  size_text(bag.bytes), bag.chunks, bag.compression);
   for (const auto& [name, value] : bag.device) {
     if (name == "Name" || name == "Serial Number" || name == "Firmware Version")
-      text += fmt::format("  {:<16} {}\n", name, value);
+      text += fmt::format("  {:<16} {}\n", name, visible(value));
   }
   std::size_t width = 0;
-  for (const auto& [name, topic] : bag.topics) width = std::max(width, name.size());
+  for (const auto& [name, topic] : bag.topics) width = std::max(width, visible(name).size());
   for (const auto& [name, topic] : bag.topics) {
-    text += fmt::format("  {:<{}}  {:>7}  {}", name, width, topic.messages, topic.type);
+    text += fmt::format("  {:<{}}  {:>7}  {}", visible(name), width, topic.messages,
+                        visible(topic.type));
     if (topic.messages > 1 && duration_s(topic) > 0.0) {
       text += fmt::format(", {:.1f} s, {:.1f} Hz", duration_s(topic),
                           static_cast<double>(topic.messages - 1) / duration_s(topic));
@@ -95,8 +97,7 @@ std::string bag_json(const BagSummary& bag) {
                               {"first_ns", topic.first.ns},
                               {"last_ns", topic.last.ns}});
   }
-  // A name from a damaged file may be no text at all.
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace swiftlet::app

@@ -13,6 +13,7 @@
 #include "swiftlet/app/characterize.hpp"
 #include "swiftlet/app/experiment.hpp"
 #include "swiftlet/app/text_output.hpp"
+#include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/base/angle.hpp"
 #include "swiftlet/eval/fill.hpp"
 #include "swiftlet/eval/wall_noise.hpp"
@@ -155,7 +156,7 @@ Faults characterize_fill(const CharacterizeOptions& options) {
     if (auto drawn = draw(sweeps, options.out); !drawn) return fault_of(std::move(drawn));
   }
   if (options.as_json) {
-    fmt::print("{}\n", fill_json(sweeps).dump(2));
+    fmt::print("{}\n", json_text(fill_json(sweeps)));
   } else {
     print_fill(sweeps);
   }

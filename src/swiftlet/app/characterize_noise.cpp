@@ -11,6 +11,7 @@
 #include "swiftlet/app/characterize.hpp"
 #include "swiftlet/app/experiment.hpp"
 #include "swiftlet/app/text_output.hpp"
+#include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/eval/wall_noise.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 #include "swiftlet/source/depth_recording.hpp"
@@ -88,7 +89,7 @@ Faults characterize_noise(const CharacterizeOptions& options) {
     for (const eval::WallNoise& wall : walls.measured)
       list.push_back({{"distance_m", wall.distance_m}, {"rms_m", wall.rms_m}});
     const nlohmann::ordered_json json{{"subpixel_px", s_px}, {"walls", std::move(list)}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json));
     return {};
   }
   fmt::print("{} walls, f = {:.1f} px, B = {} m\n", walls.measured.size(), walls.focal_px,

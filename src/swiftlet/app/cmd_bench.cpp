@@ -10,6 +10,7 @@
 #include "swiftlet/app/bench_report.hpp"
 #include "swiftlet/app/bench_tables.hpp"
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace swiftlet::app {
@@ -100,7 +101,7 @@ class Bench {
   }
 
   /// What is being done, beside the progress of it.
-  static void tell(const std::string& text) { std::fputs((text + "\n").c_str(), stderr); }
+  static void tell(const std::string& text) { std::fputs((visible(text) + "\n").c_str(), stderr); }
 
  private:
   /// For the name of the workload, where the fusion is not the usual one.
@@ -170,7 +171,7 @@ void print(const Result& result, bool as_json) {
   if (as_json) {
     auto json = rows_json(this_machine(), result.rows);
     for (const ThesisTables& tables : result.tables) json["tables"].push_back(tables_json(tables));
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json));
     return;
   }
   fmt::print("{}", machine_text(this_machine()));

@@ -10,6 +10,7 @@
 #include "swiftlet/app/calibration.hpp"
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/text_output.hpp"
+#include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/base/angle.hpp"
 #include "swiftlet/base/number_text.hpp"
 
@@ -89,7 +90,7 @@ Faults calibrate(const CalibrateOptions& options) {
       return fault_of(std::move(written));
   }
   if (options.as_json) {
-    fmt::print("{}\n", calibration_json(walls).dump(2));
+    fmt::print("{}\n", json_text(calibration_json(walls)));
     return {};
   }
   print_walls(walls);

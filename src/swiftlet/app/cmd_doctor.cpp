@@ -12,6 +12,7 @@
 #include "swiftlet/app/doctor_exam.hpp"
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/rig_flags.hpp"
+#include "swiftlet/app/visible_text.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -101,7 +102,7 @@ void print_json(const DoctorExam& exam, const std::vector<Diagnosis>& all) {
       json["cameras"].push_back(stream_json(camera));
   }
   // A serial number or a file name may be no text at all.
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  fmt::print("{}\n", json_text(json));
 }
 
 Faults doctor(const DoctorOptions& options) {

@@ -11,6 +11,7 @@
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/experiment.hpp"
 #include "swiftlet/app/text_output.hpp"
+#include "swiftlet/app/visible_text.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -33,7 +34,7 @@ Expected<ExperimentRun> run_one(const Registered<RunExperiment>& experiment) {
 
 void print(const std::vector<ExperimentRun>& runs, const ExperimentOptions& options) {
   if (options.as_json) {
-    fmt::print("{}\n", experiments_json(runs).dump(2));
+    fmt::print("{}\n", json_text(experiments_json(runs)));
     return;
   }
   for (const ExperimentRun& run : runs) {

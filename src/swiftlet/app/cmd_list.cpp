@@ -12,6 +12,7 @@
 #include "swiftlet/app/experiment.hpp"
 #include "swiftlet/app/map_view.hpp"
 #include "swiftlet/app/parameter_table.hpp"
+#include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/condition/depth_step.hpp"
 #include "swiftlet/eval/score.hpp"
 #include "swiftlet/integrate/integrator.hpp"
@@ -137,7 +138,7 @@ Faults list(const ListOptions& options) {
       print_kind(kind);
     }
   }
-  if (options.as_json) fmt::print("{}\n", all.dump(2));
+  if (options.as_json) fmt::print("{}\n", json_text(all));
   return {};
 }
 

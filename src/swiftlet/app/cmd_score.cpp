@@ -10,6 +10,7 @@
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/config_flags.hpp"
 #include "swiftlet/app/score_job.hpp"
+#include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace swiftlet::app {
@@ -47,7 +48,7 @@ Faults score(const ScoreOptions& options) {
   auto report = is_simulated ? score_flight(*job) : score_recording(*job);
   if (!report) return fault_of(std::move(report));
   if (options.as_json) {
-    fmt::print("{}\n", score_json(*report).dump(2));
+    fmt::print("{}\n", json_text(score_json(*report)));
   } else {
     fmt::print("{}", score_text(*report));
   }

@@ -11,6 +11,7 @@
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/nearest_name.hpp"
+#include "swiftlet/app/visible_text.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -30,7 +31,7 @@ int exit_code(const Faults& faults) {
 /// fputs, which fmt's print is not, is silent where standard error cannot be written.
 int report(const Faults& faults) {
   for (const Error& fault : faults)
-    std::fputs(("swiftlet: " + fault.text() + "\n").c_str(), stderr);
+    std::fputs(("swiftlet: " + visible(fault.text()) + "\n").c_str(), stderr);
   return exit_code(faults);
 }
 
@@ -77,6 +78,7 @@ int run_program(int argc, char** argv) {
       "  swiftlet render flat.swl -o flat.png       look at the map\n"
       "  swiftlet list                              everything there is to choose from\n"
       "'swiftlet COMMAND --help' tells more.");
+  const VisibleStdout visible_output;
   Action chosen;
   for (const auto& command : commands()) {
     CLI::App* parser =
@@ -89,8 +91,12 @@ int run_program(int argc, char** argv) {
     return report(flushed(chosen()));
   } catch (const CLI::ParseError& stop) {
     return report(program, stop);
-  } catch (const std::system_error& refused) {  // fmt, printing
-    return report({{ErrorCode::kIo, "standard output", refused.what(), {}}});
+  } catch (const std::system_error& refused) {
+    if (refused.code() == std::errc::resource_unavailable_try_again) {
+      return report({{ErrorCode::kOutOfMemory, "threads", "the system starts no further one",
+                      "raise its limit ('ulimit -u', memory) or end other programs"}});
+    }
+    return report({{ErrorCode::kIo, "standard output", refused.what(), {}}});  // fmt, printing
   } catch (const std::bad_alloc&) {
     return report({{ErrorCode::kOutOfMemory,
                     {},

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "swiftlet/app/visible_text.hpp"
+
 namespace swiftlet::app {
 namespace {
 
@@ -74,7 +76,7 @@ void Progress::update(std::size_t done) {
 }
 
 void Progress::tell(const std::string& text) const {
-  show((is_terminal_ ? kClearLine : "") + text + "\n");
+  show((is_terminal_ ? kClearLine : "") + visible(text) + "\n");
 }
 
 void Progress::finish() {

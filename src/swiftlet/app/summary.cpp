@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "swiftlet/app/visible_text.hpp"
+
 namespace swiftlet::app {
 namespace {
 
@@ -192,7 +194,7 @@ std::string summary_json(const MappingSummary& s) {
                      {"unknown", s.file->cells.unknown}};
     json["map"] = {{"path", s.file->path}, {"bytes", s.file->bytes}, {"blocks", s.file->blocks}};
   }
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace swiftlet::app

@@ -151,7 +151,7 @@ Bytes statistics(const MapWatch& watch) {
     json["cells"] = frame->cells;
     json["blocks_left"] = frame->blocks_left;
   }
-  const std::string text = json.dump();
+  const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return Bytes(text.begin(), text.end());
 }
 
