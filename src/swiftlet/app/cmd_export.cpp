@@ -19,13 +19,20 @@ struct ExportOptions {
 };
 
 Faults write_export(const ExportOptions& options) {
-  auto map = load_map(options.map);
-  if (!map) return fault_of(std::move(map));
+  auto opened = open_map(options.map);
+  if (!opened) return fault_of(std::move(opened));
+  const SavedMap* const map = &opened->map;
   auto thresholds = thresholds_of(*map);
   if (!thresholds) return fault_of(std::move(thresholds));
   auto written = export_map(options.format, *map, *thresholds, options.out);
   if (!written) return fault_of(std::move(written));
   fmt::print("{}\n", options.out);
+  if (options.format != "pcd") return {};
+  const auto origin = pcd_origin(*map, *thresholds);
+  if (origin && !origin->isZero()) {
+    fmt::print("far from the origin: add ({}, {}, {}) m to its points, as its header says\n",
+               origin->x(), origin->y(), origin->z());
+  }
   return {};
 }
 
@@ -33,7 +40,7 @@ Faults write_export(const ExportOptions& options) {
 
 Action declare_export(CLI::App& parser) {
   auto o = std::make_shared<ExportOptions>();
-  parser.add_option("MAP", o->map, "map file")->type_name("")->required();
+  parser.add_option("MAP", o->map, "map file: .swl, .bt or .ot")->type_name("")->required();
   parser.add_option("--to", o->format, "format, see 'swiftlet list exporters'")
       ->type_name("NAME")
       ->required();

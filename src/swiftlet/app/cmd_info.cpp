@@ -9,8 +9,11 @@
 
 #include "swiftlet/app/bag_summary.hpp"
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/app/file_kind.hpp"
 #include "swiftlet/app/map_reader.hpp"
+#include "swiftlet/app/octomap_summary.hpp"
 #include "swiftlet/app/summary.hpp"
+#include "swiftlet/app/visible_text.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -40,7 +43,7 @@ std::uintmax_t bytes_of(const SavedMap& map) {
 }
 
 void print_text(const SavedMap& map, const MapSummary& summary) {
-  fmt::print("{} ({})\n", map.path().string(), size_text(bytes_of(map)));
+  fmt::print("{} ({})\n", visible(map.path().string()), size_text(bytes_of(map)));
   fmt::print("  frames     {}\n", map.frames());
   fmt::print("  cells      {} occupied, {} free, {} unknown in {} blocks\n",
              summary.count(Occupancy::kOccupied), summary.count(Occupancy::kFree),
@@ -53,13 +56,13 @@ void print_text(const SavedMap& map, const MapSummary& summary) {
   for (const auto& [name, text] : map.meta()) {
     if (name == "frames" || name == "voxel_m") continue;
     if (text.find('\n') == std::string::npos) {
-      fmt::print("  {:10} {}\n", name, text);
+      fmt::print("  {:10} {}\n", visible(name), visible(text));
       continue;
     }
-    fmt::print("  {}\n", name);
+    fmt::print("  {}\n", visible(name));
     for (std::size_t begin = 0; begin < text.size();) {
       const std::size_t end = std::min(text.find('\n', begin), text.size());
-      fmt::print("    {}\n", text.substr(begin, end - begin));
+      fmt::print("    {}\n", visible(text.substr(begin, end - begin)));
       begin = end + 1;
     }
   }
@@ -82,7 +85,7 @@ void print_json(const SavedMap& map, const MapSummary& summary) {
     json["bounds_m"] = {{"low", {b->low.x(), b->low.y(), b->low.z()}},
                         {"high", {b->high.x(), b->high.y(), b->high.z()}}};
   }
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(json));
 }
 
 Faults info_on_bag(const InfoOptions& options) {
@@ -93,8 +96,23 @@ Faults info_on_bag(const InfoOptions& options) {
   return {};
 }
 
+Faults info_on_octomap(const InfoOptions& options) {
+  auto octomap = read_octomap(options.map);
+  if (!octomap) return fault_of(std::move(octomap));
+  std::error_code unreadable;
+  const auto bytes = std::filesystem::file_size(options.map, unreadable);
+  fmt::print("{}", options.as_json ? octomap_json(options.map, bytes, *octomap)
+                                   : octomap_text(options.map, bytes, *octomap));
+  return {};
+}
+
 Faults info(const InfoOptions& options) {
-  if (options.map.ends_with(".bag")) return info_on_bag(options);
+  auto facts = look_at_file(options.map);
+  if (!facts) return fault_of(std::move(facts));
+  if (facts->kind == FileKind::kBag) return info_on_bag(options);
+  if (facts->kind == FileKind::kOctomap) return info_on_octomap(options);
+  if (facts->kind != FileKind::kMap)
+    return {wrong_kind(options.map, *facts, "a map (.swl, .bt or .ot) or a ROS bag")};
   auto map = load_map(options.map);
   if (!map) return fault_of(std::move(map));
   auto thresholds = thresholds_of(*map);
@@ -109,7 +127,9 @@ Faults info(const InfoOptions& options) {
 
 Action declare_info(CLI::App& parser) {
   auto o = std::make_shared<InfoOptions>();
-  parser.add_option("MAP", o->map, "map file, or a ROS bag (.bag)")->type_name("")->required();
+  parser.add_option("MAP", o->map, "map file: .swl, .bt or .ot; or a ROS bag")
+      ->type_name("")
+      ->required();
   parser.add_flag("--json", o->as_json, "one JSON object, for machines");
   parser.footer(
       "Examples:\n"

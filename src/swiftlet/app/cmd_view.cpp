@@ -24,7 +24,6 @@ Expected<station::SavedWorld> read_world(const SavedMap& file) {
   auto thresholds = thresholds_of(file);
   if (!thresholds) return forward_error(std::move(thresholds));
   station::SavedWorld world;
-  world.facts.source = file.path().string();
   world.facts.version = SWIFTLET_VERSION;
   world.facts.voxel_m = file.voxel_m();
   world.facts.thresholds = *thresholds;
@@ -46,10 +45,12 @@ Expected<station::SavedWorld> read_world(const SavedMap& file) {
 Faults view(const MapViewFlags& flags) {
   auto options = station_options(flags.station);
   if (!options) return fault_of(std::move(options));
-  auto file = load_map(flags.map);
-  if (!file) return fault_of(std::move(file));
+  auto opened = open_map(flags.map);
+  if (!opened) return fault_of(std::move(opened));
+  const SavedMap* const file = &opened->map;
   auto world = read_world(*file);
   if (!world) return fault_of(std::move(world));
+  world->facts.source = flags.map;
   options->save_map = map_saver(file->meta());
   const InterruptGuard interrupt;
   auto station = station::Station::start(*options, std::move(*world));
@@ -63,7 +64,7 @@ Faults view(const MapViewFlags& flags) {
 
 Action declare_view(CLI::App& parser) {
   auto o = std::make_shared<MapViewFlags>();
-  parser.add_option("MAP", o->map, "map file")->type_name("")->required();
+  parser.add_option("MAP", o->map, "map file: .swl, .bt or .ot")->type_name("")->required();
   declare_station_flags(parser, o->station);
   parser.footer(
       "Examples:\n"

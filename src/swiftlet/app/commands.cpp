@@ -20,7 +20,7 @@
   X(experiment, "repeat the experiments of the thesis")       \
   X(characterize, "measure noise and drop-outs of a camera")  \
   X(calibrate, "straighten the depths of a bent camera")      \
-  X(check, "look for faults in map files and config files")   \
+  X(check, "look for faults in maps, configs, rigs, scenes")  \
   X(list, "list every source, method, format, view, parameter")
 
 namespace swiftlet::app {
