@@ -7,10 +7,12 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <unordered_map>
 
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/app/cube_claims.hpp"
+#include "swiftlet/app/file_kind.hpp"
 #include "swiftlet/app/map_reader.hpp"
+#include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/store/octomap_import.hpp"
 
 namespace swiftlet::app {
@@ -22,61 +24,30 @@ struct CompareOptions {
   bool as_json = false;
 };
 
-/// What a map claims: its free and occupied cells; all others are unknown.
-struct Claims {
-  double voxel_m = 0.0;
-  std::unordered_map<VoxelIndex, Occupancy, VoxelHash> cells;
-
-  [[nodiscard]] Occupancy at(const VoxelIndex& voxel) const {
-    const auto found = cells.find(voxel);
-    return found == cells.end() ? Occupancy::kUnknown : found->second;
-  }
-};
-
-Expected<Claims> read_octomap_claims(const std::string& path) {
-  Claims claims;
+Expected<CubeClaims> read_octomap_claims(const std::string& path) {
+  CubeClaims claims(0.0);
   auto summary = read_octomap(path, [&](const OctomapLeaf& leaf) {
-    const Occupancy state = leaf.is_occupied ? Occupancy::kOccupied : Occupancy::kFree;
-    VoxelIndex v = leaf.first;
-    for (v.z = leaf.first.z; v.z < leaf.first.z + leaf.edge; ++v.z) {
-      for (v.y = leaf.first.y; v.y < leaf.first.y + leaf.edge; ++v.y) {
-        for (v.x = leaf.first.x; v.x < leaf.first.x + leaf.edge; ++v.x) claims.cells[v] = state;
-      }
-    }
+    claims.add(leaf.first, leaf.edge, leaf.is_occupied ? Occupancy::kOccupied : Occupancy::kFree);
   });
   if (!summary) return forward_error(std::move(summary));
-  claims.voxel_m = summary->voxel_m;
+  claims.set_voxel_m(summary->voxel_m);
   return claims;
 }
 
-Expected<Claims> read_claims(const std::string& path) {
-  if (path.ends_with(".bt") || path.ends_with(".ot")) return read_octomap_claims(path);
+Expected<CubeClaims> read_claims(const std::string& path) {
+  auto facts = look_at_file(path);
+  if (!facts) return forward_error(std::move(facts));
+  if (facts->kind == FileKind::kOctomap) return read_octomap_claims(path);
   auto map = read_whole_map(path);
   if (!map) return forward_error(std::move(map));
-  Claims claims{map->voxel_m, {}};
-  map->for_each_known_cell([&](const VoxelIndex& v, Occupancy state) { claims.cells[v] = state; });
+  CubeClaims claims(map->voxel_m);
+  map->for_each_known_cell([&](const VoxelIndex& v, Occupancy state) { claims.add(v, 1, state); });
   return claims;
-}
-
-/// Cells by what the first map claims (row) and the second (column). Cells unknown to both are not
-/// counted.
-using Confusion = std::array<std::array<std::size_t, 3>, 3>;
-
-Confusion compare_claims(const Claims& a, const Claims& b) {
-  Confusion counts{};
-  const auto count = [&](Occupancy in_a, Occupancy in_b) {
-    ++counts[static_cast<std::size_t>(in_a)][static_cast<std::size_t>(in_b)];
-  };
-  for (const auto& [voxel, state] : a.cells) count(state, b.at(voxel));
-  for (const auto& [voxel, state] : b.cells) {
-    if (!a.cells.contains(voxel)) count(Occupancy::kUnknown, state);
-  }
-  return counts;
 }
 
 constexpr std::array<const char*, 3> kStateNames{"free", "unknown", "occupied"};
 
-void print_text(const Confusion& counts, std::size_t same, std::size_t all) {
+void print_text(const CubeClaims::Confusion& counts, std::uint64_t same, std::uint64_t all) {
   fmt::print("{:>22}{:>12}{:>12}{:>12}\n", "second:", kStateNames[0], kStateNames[1],
              kStateNames[2]);
   for (std::size_t row = 0; row < counts.size(); ++row) {
@@ -92,23 +63,20 @@ Faults compare(const CompareOptions& options) {
   if (!a) return {a.error()};
   const auto b = read_claims(options.second);
   if (!b) return {b.error()};
-  if (std::abs(a->voxel_m - b->voxel_m) > 1e-6 * a->voxel_m) {
+  if (std::abs(a->voxel_m() - b->voxel_m()) > 1e-6 * a->voxel_m()) {
     return {{ErrorCode::kUnsupported, options.second,
-             fmt::format("its cells are {} m, those of {} are {} m", b->voxel_m, options.first,
-                         a->voxel_m),
+             fmt::format("its cells are {} m, those of {} are {} m", b->voxel_m(), options.first,
+                         a->voxel_m()),
              "compare maps of one cell size"}};
   }
-  const Confusion counts = compare_claims(*a, *b);
-  std::size_t same = 0, all = 0;
+  const CubeClaims::Confusion counts = compare_claims(*a, *b);
+  std::uint64_t same = 0, all = 0;
   for (std::size_t row = 0; row < counts.size(); ++row) {
     same += counts[row][row];
-    for (const std::size_t n : counts[row]) all += n;
+    for (const std::uint64_t n : counts[row]) all += n;
   }
   if (options.as_json) {
-    fmt::print(
-        "{}\n",
-        nlohmann::ordered_json{{"cells", all}, {"same", same}, {"first_by_second", counts}}.dump(
-            2));
+    fmt::print("{}\n", json_text({{"cells", all}, {"same", same}, {"first_by_second", counts}}));
   } else {
     print_text(counts, same, all);
   }
