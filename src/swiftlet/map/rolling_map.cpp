@@ -115,6 +115,17 @@ RollingMap::Shift RollingMap::recentre(const Eigen::Vector3d& p_world, BlockArch
   return shift;
 }
 
+void RollingMap::clear() {
+  for_each_block(window(), [&](const BlockIndex& index) {
+    const std::size_t entry = directory_.entry_of(index);
+    const BlockId id = directory_.at(entry);
+    if (id == kNoBlock) return;
+    store_->drop(id);
+    directory_.set(entry, kNoBlock);
+  });
+  anchor_.reset();
+}
+
 const VoxelBlock* RollingMap::find(const BlockIndex& index) const {
   const BlockId id = directory_.find(index);
   return id == kNoBlock ? nullptr : &store_->pool().block(id);

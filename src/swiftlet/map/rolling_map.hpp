@@ -62,6 +62,10 @@ class RollingMap {
   /// forgets. REQUIRES: p_world finite and within +-10^6 m.
   Shift recentre(const Eigen::Vector3d& p_world, BlockArchive* archive);
 
+  /// Forgets every cell, as if nothing had ever been mapped; the next recentre() is a first one.
+  /// Snapshots that readers hold keep what they show. Cost: O(blocks of the window).
+  void clear();
+
   [[nodiscard]] LogOdds log_odds(const VoxelIndex& voxel) const {
     const VoxelBlock* block = find(block_of(voxel));
     return block == nullptr ? kUnknownCell : block->cells[offset_in_block(voxel)];

@@ -34,6 +34,15 @@ void map(Options& o, Visit& visit) {
       o.trigger_m);
 }
 
+template <class Rule, class Visit>
+void new_world(Rule& rule, Visit& visit) {
+  visit(ConfigField{"map.on_new_world",
+                    "when the poses lose their place: refuse frames until the map is begun anew "
+                    "(`swiftlet map` does, in a file of its own), clear the map, or keep mapping "
+                    "into it"},
+        rule);
+}
+
 template <class Options, class Visit>
 void quality(Options& o, Visit& visit) {
   visit(ConfigField{"quality.min_valid", "frames with a smaller share of valid pixels are refused",
@@ -145,6 +154,7 @@ void occupancy(Options& o, Visit& visit) {
 template <class Config, class Visit>
 void visit_config(Config& c, Visit&& visit) {
   config_fields::map(c.map, visit);
+  config_fields::new_world(c.on_new_world, visit);
   config_fields::quality(c.quality, visit);
   config_fields::depth(c.depth, visit);
   config_fields::distortion(c.depth.distortion, visit);

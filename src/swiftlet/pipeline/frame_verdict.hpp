@@ -19,9 +19,10 @@ enum class FrameVerdict : std::uint8_t {
   kSaturated,       ///< most readings are at the end of the scale, or of one value
   kSmeared,         ///< most depth edges are drawn out: moved during the exposure
   kFrozen,          ///< the camera moves and its image does not
+  kOtherWorld,      ///< its poses and the map share no world (map.on_new_world)
 };
-inline constexpr std::array<std::string_view, 8> kFrameVerdictNames{
-    "integrated",   "no_readings", "size_mismatch", "pose_out_of_range",
-    "mostly_empty", "saturated",   "smeared",       "frozen"};
+inline constexpr std::array<std::string_view, 9> kFrameVerdictNames{
+    "integrated", "no_readings", "size_mismatch", "pose_out_of_range", "mostly_empty",
+    "saturated",  "smeared",     "frozen",        "other_world"};
 
 }  // namespace swiftlet

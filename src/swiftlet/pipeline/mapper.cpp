@@ -10,6 +10,11 @@ namespace swiftlet {
 Expected<Mapper> Mapper::create(const MapperConfig& config, BlockArchive* archive) {
   if (auto faults = config.faults(); !faults.empty())
     return tl::make_unexpected(std::move(faults.front()));
+  if (config.on_new_world == kClearForNewWorld && archive != nullptr) {
+    return fail(ErrorCode::kInvalidConfig, "map.on_new_world",
+                "an archive would bring the blocks of the old world back into the cleared map",
+                "choose 'refuse', and call begin_world() when the archive is a new one, too");
+  }
   auto map = RollingMap::create(config.map);
   if (!map) return forward_error(std::move(map));
   auto conditioner = Conditioner::create(config.conditioning());
@@ -22,6 +27,8 @@ Expected<Mapper> Mapper::create(const MapperConfig& config, BlockArchive* archiv
 Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map,
                Conditioner conditioner, std::unique_ptr<Integrator> integrator)
     : config_(config),
+      clears_for_new_world_(config.on_new_world == kClearForNewWorld),
+      keeps_in_new_world_(config.on_new_world == kKeepInNewWorld),
       archive_(archive),
       map_(std::move(map)),
       gate_(std::make_unique<FrameGate>(config.quality)),
@@ -32,7 +39,29 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
     decay_ = std::make_unique<GhostDecay>(config.integrate.decay_s);
 }
 
+void Mapper::begin_world(std::uint32_t pose_epoch) {
+  map_.clear();
+  *gate_ = FrameGate(config_.quality);
+  if (decay_) *decay_ = GhostDecay(config_.integrate.decay_s);
+  frame_count_ = 0;  // rounding draws from it
+  pose_epoch_ = pose_epoch;
+  map_.publish(frame_count_);
+}
+
+bool Mapper::is_of_other_world(const Frame& frame) const {
+  if (keeps_in_new_world_ || !pose_epoch_ || frame.pose_epoch == *pose_epoch_) return false;
+  return !clears_for_new_world_ || frame.pose_epoch < *pose_epoch_;
+}
+
+/// REQUIRES: the frame is not of another world, so a newer epoch is one to clear for.
+void Mapper::enter_world_of(const Frame& frame) {
+  if (keeps_in_new_world_) return;
+  if (pose_epoch_ && frame.pose_epoch != *pose_epoch_) begin_world(frame.pose_epoch);
+  pose_epoch_ = frame.pose_epoch;
+}
+
 std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) {
+  if (is_of_other_world(frame)) return FrameVerdict::kOtherWorld;
   const auto& raw = frame.depth.raw;
   if (raw.width() != frame.intrinsics.width() || raw.height() != frame.intrinsics.height()) {
     return FrameVerdict::kSizeMismatch;
@@ -61,6 +90,7 @@ MapUpdate Mapper::integrate(const Frame& frame) {
     update.verdict = FrameVerdict::kNoReadings;
     return update;
   }
+  enter_world_of(frame);  // only now: a frame without use clears nothing
   update.shift = map_.recentre(frame.T_world_camera.translation(), archive_);
   timer.finish(Stage::kRecentre);
   instrument.subpixel_px *= double{depth.noise_left};

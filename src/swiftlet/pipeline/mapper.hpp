@@ -37,12 +37,19 @@ struct MapUpdate {
 class Mapper {
  public:
   /// `archive` takes what leaves the window and gives it back; null forgets it. It must outlive the
-  /// mapper. Errors: kInvalidConfig (the first of config.faults()), kOutOfMemory.
+  /// mapper. Errors: kInvalidConfig (the first of config.faults(), or map.on_new_world is `clear`
+  /// and there is an archive, which would give the old world back), kOutOfMemory.
   [[nodiscard]] static Expected<Mapper> create(const MapperConfig& config,
                                                BlockArchive* archive = nullptr);
 
-  /// Fuses one frame.
+  /// Fuses one frame. Frames of two worlds (Frame::pose_epoch) are never fused into one map, unless
+  /// map.on_new_world says `keep`: those of a newer one are refused as kOtherWorld or, with
+  /// `clear`, begin the map anew; those that come late, of an older one, are refused either way.
   MapUpdate integrate(const Frame& frame);
+
+  /// Begins the map anew, for frames of this epoch: the same bits as those of a new mapper. Readers
+  /// follow. REQUIRES: the archive, if there is one, gives back no more blocks of the old world.
+  void begin_world(std::uint32_t pose_epoch);
 
   [[nodiscard]] const MapperConfig& config() const { return config_; }
   /// For the mapping thread.
@@ -65,8 +72,13 @@ class Mapper {
   Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map, Conditioner conditioner,
          std::unique_ptr<Integrator> integrator);
   [[nodiscard]] std::optional<FrameVerdict> refusal(const Frame& frame);
+  [[nodiscard]] bool is_of_other_world(const Frame& frame) const;
+  void enter_world_of(const Frame& frame);
 
   MapperConfig config_;
+  bool clears_for_new_world_;
+  bool keeps_in_new_world_;
+  std::optional<std::uint32_t> pose_epoch_;  // of what is in the map; none before the first frame
   BlockArchive* archive_;
   RollingMap map_;
   std::unique_ptr<FrameGate> gate_;

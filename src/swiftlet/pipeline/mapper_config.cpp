@@ -71,6 +71,11 @@ std::vector<Error> MapperConfig::faults() const {
                       fmt::format("unknown fusion '{}'", integrate.fusion),
                       "known are: thesis, guarded, sharp"});
   }
+  if (!is_new_world_rule(on_new_world)) {
+    faults.push_back({ErrorCode::kInvalidConfig, "map.on_new_world",
+                      fmt::format("unknown rule '{}'", on_new_world),
+                      "known are: refuse, clear, keep"});
+  }
   keep_fault(faults, "integrate.ray_method", find_ray_method(integrate.ray_method));
   const bool is_straightened = std::ranges::find(depth.steps, "distortion") != depth.steps.end();
   if (faults.empty() && !depth.distortion.is_none() && !is_straightened) {

@@ -26,9 +26,20 @@ inline constexpr std::string_view kSharpFusion = "sharp";
   return name == kThesisFusion || name == kGuardedFusion || name == kSharpFusion;
 }
 
+/// What becomes of a frame whose poses began a new world (Frame::pose_epoch), of which the map
+/// knows nothing: it is refused until the owner calls Mapper::begin_world(); or the map is cleared
+/// and begun anew with it; or it is fused into the map as if nothing had happened.
+inline constexpr std::string_view kRefuseNewWorld = "refuse";
+inline constexpr std::string_view kClearForNewWorld = "clear";
+inline constexpr std::string_view kKeepInNewWorld = "keep";
+[[nodiscard]] constexpr bool is_new_world_rule(std::string_view name) {
+  return name == kRefuseNewWorld || name == kClearForNewWorld || name == kKeepInNewWorld;
+}
+
 /// Every parameter of the mapper, with its default.
 struct MapperConfig {
   RollingMap::Options map;
+  std::string on_new_world{kRefuseNewWorld};
   QualityLimits quality;
   ConditionOptions depth;
   SensorOptions sensor;
