@@ -9,10 +9,12 @@
 
 #include "swiftlet/app/calibration.hpp"
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/app/input_files.hpp"
 #include "swiftlet/app/text_output.hpp"
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/base/angle.hpp"
 #include "swiftlet/base/number_text.hpp"
+#include "swiftlet/store/output_file.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -66,7 +68,18 @@ Error no_distance(const std::string& text) {
           fmt::format("write --check SOURCE METRES, from 0 (as read) to {:g} m", kFarthest_m)};
 }
 
+/// Told before the recordings are read.
+Status check_parameters_file(const CalibrateOptions& options) {
+  if (options.out.empty()) return Done{};
+  std::vector<std::filesystem::path> inputs = input_files(options.source);
+  for (const std::string& check : options.checks) {
+    for (auto& file : input_files(check)) inputs.push_back(std::move(file));
+  }
+  return check_output(options.out, inputs);
+}
+
 Faults calibrate(const CalibrateOptions& options) {
+  if (auto allowed = check_parameters_file(options); !allowed) return fault_of(std::move(allowed));
   std::vector<CalibratedWall> walls;
   auto first = calibrate_wall(options.source, distance_of(options.distance_m), options.frames);
   if (!first) return fault_of(std::move(first));

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <filesystem>
 #include <memory>
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/map_reader.hpp"
 #include "swiftlet/store/exporters.hpp"
+#include "swiftlet/store/output_file.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -19,6 +22,10 @@ struct ExportOptions {
 };
 
 Faults write_export(const ExportOptions& options) {
+  if (auto allowed = check_output(options.out, std::array{std::filesystem::path(options.map)});
+      !allowed) {
+    return fault_of(std::move(allowed));
+  }
   auto opened = open_map(options.map);
   if (!opened) return fault_of(std::move(opened));
   const SavedMap* const map = &opened->map;

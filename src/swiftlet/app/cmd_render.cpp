@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <filesystem>
 #include <memory>
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/map_reader.hpp"
 #include "swiftlet/app/map_view.hpp"
+#include "swiftlet/store/output_file.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -22,6 +25,10 @@ struct RenderOptions {
 Faults render(const RenderOptions& options) {
   auto known = find_registered(map_views(), options.view, "view");
   if (!known) return fault_of(std::move(known));
+  if (auto allowed = check_output(options.out, std::array{std::filesystem::path(options.map)});
+      !allowed) {
+    return fault_of(std::move(allowed));
+  }
   auto map = read_whole_map(options.map);
   if (!map) return fault_of(std::move(map));
   auto picture = draw_view(options.view, *map, options.how);

@@ -7,6 +7,7 @@
 #include <octomap/OcTree.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <memory>
@@ -94,7 +95,7 @@ Status export_bt(const SavedMap& map, const OccupancyThresholds& thresholds,
   if (!tree) return forward_error(std::move(tree));
   (*tree)->toMaxLikelihood();  // reduces each cell to free or occupied
   (*tree)->prune();
-  auto file = OutputFile::create(out);
+  auto file = OutputFile::create(out, std::array{map.path()});
   if (!file) return forward_error(std::move(file));
   file->write(header("# Octomap OcTree binary file", **tree));
   if ((*tree)->size() > 0) (*tree)->writeBinaryNode(file->stream(), (*tree)->getRoot());
@@ -106,7 +107,7 @@ Status export_ot(const SavedMap& map, const OccupancyThresholds& thresholds,
   auto tree = build_tree(map, thresholds, out, progress);
   if (!tree) return forward_error(std::move(tree));
   (*tree)->prune();  // joins eight equal cells only
-  auto file = OutputFile::create(out);
+  auto file = OutputFile::create(out, std::array{map.path()});
   if (!file) return forward_error(std::move(file));
   file->write(header("# Octomap OcTree file", **tree));
   if ((*tree)->size() > 0) (*tree)->writeData(file->stream());

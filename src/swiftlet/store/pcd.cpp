@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <string>
 #include <utility>
 
@@ -17,7 +18,7 @@ Status export_pcd(const SavedMap& map, const OccupancyThresholds& thresholds,
                   const std::filesystem::path& out, const ExportProgress& progress) {
   auto summary = summarize(map, thresholds);
   if (!summary) return forward_error(std::move(summary));
-  auto file = OutputFile::create(out);
+  auto file = OutputFile::create(out, std::array{map.path()});
   if (!file) return forward_error(std::move(file));
   const std::uint64_t points = summary->count(Occupancy::kOccupied);
   // PCL takes coordinates as floats and no others; where these do not suffice, their origin moves.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -47,7 +48,7 @@ Status export_ply(const SavedMap& map, const OccupancyThresholds& thresholds,
                   const std::filesystem::path& out, const ExportProgress& progress) {
   auto summary = summarize(map, thresholds);
   if (!summary) return forward_error(std::move(summary));
-  auto file = OutputFile::create(out);
+  auto file = OutputFile::create(out, std::array{map.path()});
   if (!file) return forward_error(std::move(file));
   const bool is_float = floats_suffice(summary->bounds);
   file->write(header(summary->count(Occupancy::kOccupied), map, is_float ? "float" : "double"));
