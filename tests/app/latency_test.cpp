@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "support/seeds.hpp"
 
@@ -39,6 +40,35 @@ TEST(Latency, adds_stages_up_to_frames) {
   EXPECT_EQ(latency.frame_percentile(0.99), Nanoseconds(298));
   EXPECT_EQ(latency.stage_percentile(Stage::kIntegrate, 0.99), Nanoseconds(198));
   EXPECT_EQ(latency.total(), Nanoseconds(3 * 5050 + 100));
+}
+
+// A flight of hours: the vectors of 0.1.0 grew with every frame.
+TEST(DurationCounts, tell_percentiles_to_within_a_hundredth) {
+  test::for_each_seed(20, [](test::Random& random) {
+    DurationCounts counts;
+    std::vector<Nanoseconds> values;
+    const double longest = random.real(1.0, 40.0);
+    for (int i = 0; i < 2000; ++i) {
+      values.emplace_back(static_cast<std::int64_t>(std::exp2(random.real(0.0, longest))));
+      counts.add(values.back());
+    }
+    for (const double share : {1e-9, 0.01, 0.5, 0.9, 0.99, 1.0}) {
+      const auto exact = static_cast<double>(percentile(values, share).count());
+      const auto told = static_cast<double>(counts.percentile(share).count());
+      EXPECT_GE(told, exact) << random.repeat();
+      EXPECT_LE(told, exact * (1.0 + 1.0 / 128.0)) << random.repeat();
+    }
+    EXPECT_EQ(counts.percentile(1.0), *std::ranges::max_element(values)) << "the longest is exact";
+  });
+}
+
+TEST(DurationCounts, take_whatever_a_clock_says) {
+  DurationCounts counts;
+  EXPECT_EQ(counts.percentile(0.5), Nanoseconds(0)) << "of nothing";
+  counts.add(Nanoseconds::min());
+  EXPECT_EQ(counts.percentile(1.0), Nanoseconds(0));
+  counts.add(Nanoseconds::max());
+  EXPECT_GT(counts.percentile(1.0), std::chrono::hours(4));
 }
 
 }  // namespace
