@@ -7,6 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "app/support/run_program.hpp"
 #include "support/recordings.hpp"
 #include "support/temp_folder.hpp"
@@ -31,6 +34,14 @@ class FlightOutput : public ::testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return swiftlet(arguments);
   }
+  std::vector<std::string> files(const std::string& begin) const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+      const std::string name = entry.path().filename();
+      if (name.starts_with(begin)) names.push_back(name);
+    }
+    return names;
+  }
   /// Wrong usage, in one clear line.
   static void expect_refusal(const Ended& ended, const std::string& what) {
     EXPECT_EQ(ended.exit_code, 2) << ended.err;
@@ -41,6 +52,61 @@ class FlightOutput : public ::testing::Test {
 
   TempFolder folder_;
 };
+
+TEST_F(FlightOutput, overwrite_keeps_the_old_map_until_the_new_one_is_saved) {
+  ASSERT_EQ(map_to("a.swl").exit_code, 0);
+  write_file(folder_ / "a.swl.bak", "the user's own");
+  const std::string before = content_of(folder_ / "a.swl");
+  const auto is_kept = [&](const std::string& name) {
+    return content_of(folder_ / name) == before;
+  };
+  // Too small for any map, for the first batch, for the last one: a disk that fills sooner or
+  // later.
+  for (const std::uint64_t limit : {1U, 8192U, 16384U, 24576U, 32768U}) {
+    const Ended ended =
+        run({"map", "7scenes:rec", "-o", "a.swl", "--overwrite"}, folder_.path(), limit);
+    if (ended.exit_code == 0) break;
+    EXPECT_EQ(std::ranges::count_if(files("a."), is_kept), 1) << limit << ended.err;
+  }
+  // The same command as often as one likes, whatever the ones before have left.
+  ASSERT_EQ(map_to("a.swl", {"--overwrite"}).exit_code, 0);
+  ASSERT_EQ(map_to("a.swl", {"--overwrite"}).exit_code, 0);
+  EXPECT_EQ(content_of(folder_ / "a.swl.bak"), "the user's own");
+  for (const std::string& name : files("a.swl")) {
+    EXPECT_TRUE(name == "a.swl" || name == "a.swl.bak") << name;
+  }
+}
+
+TEST_F(FlightOutput, overwrite_replaces_maps_and_nothing_else) {
+  write_file(folder_ / "notes.txt", "dear diary");
+  write_file(folder_ / "flight.bag", "#ROSBAG V2.0\n");
+  expect_refusal(map_to("notes.txt", {"--overwrite"}), "the file is no Swiftlet map");
+  expect_refusal(map_to("rec", {"--overwrite"}), "it exists and is not a file");
+  EXPECT_EQ(content_of(folder_ / "notes.txt"), "dear diary");
+}
+
+TEST_F(FlightOutput, puts_the_time_of_the_start_into_the_name_of_the_map) {
+  ASSERT_EQ(map_to("a-%t.swl").exit_code, 0);
+  EXPECT_THAT(files("a-"),
+              ::testing::ElementsAre(::testing::MatchesRegex("a-....-..-..T..-..-..[.]swl")));
+}
+
+TEST_F(FlightOutput, flies_on_when_a_real_disk_is_full_and_ends_with_a_clear_sentence) {
+  const std::filesystem::path disk = folder_ / "disk";
+  std::filesystem::create_directory(disk);
+  const std::string place = "'" + disk.string() + "'";
+  if (std::system(("mount -t tmpfs -o size=128k none " + place + " 2> /dev/null").c_str()) != 0)
+    GTEST_SKIP() << "this system lets nobody mount a small disk (tmpfs)";
+  const Ended ended = map_to("disk/a.swl", {"--set", "depth.downsample=1", "--set",
+                                            "map.voxel_m=0.02", "--set", "map.size_m=[8,8,4]"});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("disk/a.swl"));
+  EXPECT_THAT(ended.out, HasSubstr("frames     3 in")) << "all of them";
+  EXPECT_EQ(std::system(("mount -o remount,size=4m " + place).c_str()), 0);  // room is made
+  const Ended told = swiftlet({"info", "disk/a.swl"});
+  EXPECT_EQ(std::system(("umount " + place).c_str()), 0);
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+}
 
 TEST_F(FlightOutput, an_output_is_never_its_input_nor_a_map_whatever_it_is_called) {
   namespace fs = std::filesystem;

@@ -221,25 +221,6 @@ TEST_F(Program, does_not_overwrite_a_map_unless_told_to) {
   EXPECT_EQ(load_map(folder_ / "a.swl")->frames(), 1U);
 }
 
-TEST_F(Program, overwrite_keeps_the_old_map_aside_until_the_new_one_is_saved) {
-  ASSERT_EQ(map_to("a.swl").exit_code, 0);
-  const std::string before = content_of(folder_ / "a.swl");
-  // Too small for any map, for the first batch, for the last one: a disk that fills sooner or
-  // later.
-  for (const std::uint64_t limit : {1U, 8192U, 16384U, 24576U, 32768U}) {
-    const Ended ended =
-        run({"map", "7scenes:rec", "-o", "a.swl", "--overwrite"}, folder_.path(), limit);
-    if (ended.exit_code == 0) break;
-    const bool is_aside = std::filesystem::exists(folder_ / "a.swl.bak");
-    EXPECT_EQ(content_of(folder_ / (is_aside ? "a.swl.bak" : "a.swl")), before) << limit;
-    if (!is_aside) continue;
-    expect_refusal(map_to("a.swl", {"--overwrite"}), 2, "a.swl.bak: the file exists");
-    std::filesystem::rename(folder_ / "a.swl.bak", folder_ / "a.swl");
-  }
-  ASSERT_EQ(map_to("a.swl", {"--overwrite"}).exit_code, 0);
-  EXPECT_THAT(left_behind("a.swl"), ::testing::ElementsAre("a.swl"));
-}
-
 TEST_F(Program, overwrite_keeps_the_old_map_if_there_is_nothing_to_map) {
   ASSERT_EQ(map_to("a.swl").exit_code, 0);
   const std::string before = content_of(folder_ / "a.swl");

@@ -4,6 +4,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <memory>
@@ -12,7 +13,10 @@
 #include "swiftlet/app/config_flags.hpp"
 #include "swiftlet/app/depth_doubt.hpp"
 #include "swiftlet/app/events.hpp"
+#include "swiftlet/app/flight_file.hpp"
+#include "swiftlet/app/flight_recovery.hpp"
 #include "swiftlet/app/flight_watch.hpp"
+#include "swiftlet/app/input_files.hpp"
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/mapping_session.hpp"
 #include "swiftlet/app/progress.hpp"
@@ -42,15 +46,11 @@ struct MapOptions {
 
 /// Told before the flight and not after it.
 Status check_output(const MapOptions& options) {
-  std::error_code unreadable;
-  if (options.overwrite && std::filesystem::exists(path_aside(options.out), unreadable)) {
-    return fail(ErrorCode::kUsage, path_aside(options.out),
-                "the file exists; a flight that was cut off has left it, or it is yours",
-                "move or remove it: the old map is to stand there");
-  }
-  if (options.overwrite || !std::filesystem::exists(options.out, unreadable)) return Done{};
-  return fail(ErrorCode::kUsage, options.out, "the file exists",
-              "add --overwrite or choose another name with -o");
+  auto recovered = recover_cut_flights(options.out);
+  if (!recovered) return forward_error(std::move(recovered));
+  for (const std::string& note : *recovered)
+    std::fputs(("swiftlet: " + note + "\n").c_str(), stderr);
+  return check_flight_file(options.out, options.overwrite, input_files(options.source));
 }
 
 tl::expected<LoadedConfig, Faults> config_of(const MapOptions& options) {
@@ -84,12 +84,14 @@ Status fly(FrameSource& source, MappingSession& session, const MapOptions& optio
            const InterruptGuard& interrupt, FlightWatch* watch) {
   Progress progress(options.frames > 0 ? options.frames : source.info().frame_count);
   source.stop_when([&] {
-    if (watch != nullptr) watch->note(source.tally());  // frames may be lost for long
+    if (watch != nullptr)
+      watch->note(source.tally(), session.summary().blocks_lost);  // frames may be lost for long
     return interrupt.is_interrupted();
   });
   MappingSummary& summary = session.summary();
   DepthDoubt doubt(source.info().assumed_depth_unit_m);
   Status outcome = Done{};
+  bool is_loss_told = false;
   for (std::size_t done = 0; options.frames == 0 || done < options.frames;) {
     summary.was_interrupted = interrupt.is_interrupted();
     if (summary.was_interrupted) break;
@@ -103,16 +105,20 @@ Status fly(FrameSource& source, MappingSession& session, const MapOptions& optio
       summary.was_interrupted = interrupt.is_interrupted();
       break;
     }
-    if (watch != nullptr) watch->note(source.tally());
+    if (watch != nullptr) watch->note(source.tally(), session.summary().blocks_lost);
     doubt.note((*frame)->depth);
     outcome = session.integrate(**frame);
     if (!outcome) break;
+    if (summary.blocks_lost > 0 && !is_loss_told) {
+      is_loss_told = true;
+      progress.tell("the disk refuses blocks of the map; the flight goes on without them");
+    }
     progress.update(++done);
   }
   summary.elapsed_s = progress.elapsed_s();
   summary.source_tally = source.tally();
   summary.depth_doubt = doubt.text();
-  if (watch != nullptr) watch->note(summary.source_tally);
+  if (watch != nullptr) watch->note(summary.source_tally, summary.blocks_lost);
   progress.finish();
   return outcome;
 }
@@ -144,9 +150,10 @@ Faults land(MappingSession& session, const MapperConfig& config, Status&& flight
     if (faults.empty()) faults.push_back(nothing_mapped(session.summary(), config));
     return faults;
   }
-  if (auto saved = session.save(); !saved) {
-    if (faults.empty()) faults.push_back(std::move(saved).error());
-    return faults;
+  if (auto saved = session.save(); !saved) faults.push_back(std::move(saved).error());
+  if (!session.aside().empty()) {
+    faults.push_back({ErrorCode::kIo, session.aside().string(),
+                      "here is the map that was to be replaced", "remove it if you need it not"});
   }
   fmt::print("{}", as_json ? summary_json(session.summary()) : summary_text(session.summary()));
   return faults;
@@ -161,11 +168,12 @@ Expected<std::unique_ptr<FlightWatch>> start_watch(const MapOptions& options, co
 }
 
 Faults map(const MapOptions& options) {
-  if (auto free = check_output(options); !free) return fault_of(std::move(free));
   auto config = config_of(options);
   if (!config) return std::move(config).error();
   auto source = open_source(options.rig.added_to(options.source));
   if (!source) return fault_of(std::move(source));
+  // Last, since it is the one that changes files.
+  if (auto free = check_output(options); !free) return fault_of(std::move(free));
   if (options.in_real_time) source = play_in_real_time(std::move(*source));
   const SourceInfo info = (*source)->info();
   adopt_baseline(info.baseline_m, *config);
@@ -202,11 +210,11 @@ Action declare_map(CLI::App& parser) {
   parser.add_option("SOURCE", o->source, "where frames come from, as KIND:PLACE")
       ->type_name("")
       ->required();
-  parser.add_option("-o,--out", o->out, "map file to write")
+  parser.add_option("-o,--out", o->out, "map file to write; %t becomes the time of the start, UTC")
       ->type_name("FILE")
       ->capture_default_str();
   parser.add_flag("--overwrite", o->overwrite,
-                  "replace the map; until the new one is saved it is FILE.bak");
+                  "replace the map; the old one is kept until the new one is saved");
   declare_config_flags(parser, o->config);
   parser
       .add_option(
@@ -241,8 +249,13 @@ Action declare_map(CLI::App& parser) {
       "  swiftlet map bag:d435.bag,t265.bag --rig my_rig.yaml\n"
       "  swiftlet map sim:apartment --view --stay --realtime     then open the address it tells\n"
       "'swiftlet list sources' tells every KIND, 'swiftlet list parameters' every KEY.\n"
-      "Ctrl-C stops the flight and saves what was mapped (exit code 0); a second one gives up.");
-  return [o] { return map(*o); };
+      "Ctrl-C stops the flight and saves what was mapped (exit code 0); a second one gives up.\n"
+      "A flight that was cut off leaves its map; the next start of the same command keeps it as\n"
+      "FILE.<time>.cut.swl. Poses that lose their place begin a new map, FILE.world2.swl.");
+  return [o] {
+    o->out = with_start_time(std::move(o->out), std::time(nullptr));
+    return map(*o);
+  };
 }
 
 }  // namespace swiftlet::app

@@ -7,12 +7,14 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/events.hpp"
+#include "swiftlet/app/flight_file.hpp"
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/progress.hpp"
 #include "swiftlet/app/rig_flags.hpp"
@@ -93,7 +95,9 @@ Action declare_record(CLI::App& parser) {
   parser.add_option("SOURCE", o->source, "realsense, or realsense:SERIAL[,SERIAL...][?...]")
       ->type_name("")
       ->required();
-  parser.add_option("-o,--out", o->out, "folder for the recordings; nothing in it is replaced")
+  parser
+      .add_option("-o,--out", o->out,
+                  "folder for the recordings; nothing in it is replaced; %t as in map")
       ->type_name("DIR")
       ->required();
   CLI::Range range(0.0, 1e6);
@@ -109,7 +113,10 @@ Action declare_record(CLI::App& parser) {
       "  swiftlet map bag:flight1/depth_728612070259.bag,flight1/t265_908412110993.bag\n"
       "The SDK writes one bag a device; poses that come over UDP go to poses.txt as they came. A\n"
       "device that was unplugged goes on in a file of its own.");
-  return [o] { return record(*o); };
+  return [o] {
+    o->out = with_start_time(std::move(o->out), std::time(nullptr));
+    return record(*o);
+  };
 }
 
 }  // namespace swiftlet::app

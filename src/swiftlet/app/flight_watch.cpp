@@ -36,12 +36,13 @@ void FlightWatch::map_begun(const Mapper& mapper) {
   facts.stages.assign(kStageNames.begin(), kStageNames.end());
   facts.verdicts.assign(kFrameVerdictNames.begin(), kFrameVerdictNames.end());
   facts.losses.assign(kFrameLossNames.begin(), kFrameLossNames.end());
+  facts.losses.emplace_back("map_blocks");  // see note()
   feed_.begin_world(mapper.reader(), facts);
 }
 
 void FlightWatch::frame_done(const Frame& frame, const MapUpdate& update, const Mapper& mapper) {
   static_assert(kStageNames.size() == station::kMaxStages);
-  static_assert(kFrameLossNames.size() == station::kMaxLosses);
+  static_assert(kFrameLossNames.size() < station::kMaxLosses);
   report_.stamp = frame.stamp;
   report_.number = ++frames_;
   report_.verdict = static_cast<std::uint8_t>(update.verdict);
@@ -66,10 +67,12 @@ void FlightWatch::block_left(const BlockIndex& index, const VoxelBlock& block,
   feed_.evicted(index, block, version);
 }
 
-void FlightWatch::note(const FrameTally& tally) {
+void FlightWatch::note(const FrameTally& tally, std::uint64_t blocks_lost) {
   std::ranges::transform(tally.lost, report_.lost.begin(),
                          [](std::size_t n) { return static_cast<std::uint32_t>(n); });
-  feed_.lost(report_.lost);
+  auto all = report_.lost;  // a frame's report counts frames only
+  all[kFrameLossNames.size()] = static_cast<std::uint32_t>(blocks_lost);
+  feed_.lost(all);
 }
 
 }  // namespace swiftlet::app

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -28,8 +29,8 @@ class FlightWatch final : public SessionObserver {
   void frame_done(const Frame& frame, const MapUpdate& update, const Mapper& mapper) override;
   void block_left(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) override;
 
-  /// What the source has lost so far.
-  void note(const FrameTally& tally);
+  /// What the source has lost so far, and blocks of the map that the disk has refused.
+  void note(const FrameTally& tally, std::uint64_t blocks_lost);
   /// There will be no more frames.
   void finish() { feed_.finish(); }
 

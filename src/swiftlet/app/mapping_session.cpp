@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "swiftlet/app/flight_file.hpp"
 #include "swiftlet/store/map_file.hpp"
 #include "swiftlet/store/saved_map.hpp"
 
@@ -20,7 +21,10 @@ Expected<std::unique_ptr<MappingSession>> MappingSession::create(const MapperCon
 }
 
 Status MappingSession::begin_map(const MapperConfig& config) {
-  auto mapper = Mapper::create(config, &archive_);
+  MapperConfig used = config;
+  // Cleared or refused: what the new world is mapped into is for the session to say.
+  if (used.on_new_world == kClearForNewWorld) used.on_new_world = kRefuseNewWorld;
+  auto mapper = Mapper::create(used, &archive_);
   if (!mapper) return forward_error(std::move(mapper));
   mapper_ = std::make_unique<Mapper>(std::move(*mapper));
   if (options_.observer != nullptr) options_.observer->map_begun(*mapper_);
@@ -39,79 +43,148 @@ void MappingSession::book(const Frame& frame, const MapUpdate& update) {
   summary_.memory_bytes = mapper_->memory_bytes();
 }
 
-Status MappingSession::set_old_map_aside() {
-  std::error_code unreadable;
-  if (!options_.store.overwrite || !std::filesystem::is_regular_file(options_.path, unreadable)) {
-    return Done{};
-  }
-  auto renamed = MapFile::rename(options_.path, path_aside(options_.path));
-  is_old_map_aside_ = renamed.has_value();
-  return renamed;
+void MappingSession::keep_failure(Error failure) {
+  if (!failure_) failure_ = std::move(failure);
 }
 
-Status MappingSession::create_file(const Eigen::Vector3d& start_m) {
-  options_.meta["start_m"] = fmt::format("{} {} {}", start_m.x(), start_m.y(), start_m.z());
-  if (auto aside = set_old_map_aside(); !aside) return aside;
-  auto store =
-      TileStore::create(options_.path, mapper_->map().voxel_m(), options_.store, options_.meta);
-  if (!store) {
-    if (is_old_map_aside_) (void)MapFile::rename(path_aside(options_.path), options_.path);
-    return forward_error(std::move(store));
-  }
-  store_ = std::move(*store);
+Expected<std::unique_ptr<TileStore>> MappingSession::new_store(const std::filesystem::path& path,
+                                                               bool overwrite) {
+  MapMeta meta = options_.meta;
+  meta["start_m"] = fmt::format("{} {} {}", start_m_->x(), start_m_->y(), start_m_->z());
+  meta[std::string(kFlightKey)] = kUnderWay;
+  if (!aside_.empty() && paths_.empty()) meta[std::string(kReplacesKey)] = aside_.filename();
+  TileStoreOptions options = options_.store;
+  options.overwrite = overwrite;
+  return TileStore::create(path, mapper_->map().voxel_m(), options, std::move(meta));
+}
+
+void MappingSession::adopt(std::unique_ptr<TileStore> store, const std::filesystem::path& path) {
+  store_ = std::move(store);
   store_->follow(mapper_->reader());
   archive_.attach(*store_);
+  paths_.push_back(path);
+}
+
+Status MappingSession::create_first_file() {
+  std::error_code unreadable;
+  if (options_.store.overwrite && std::filesystem::is_regular_file(options_.path, unreadable)) {
+    auto aside = set_map_aside(options_.path);
+    if (!aside) return forward_error(std::move(aside));
+    aside_ = std::move(*aside);
+  }
+  auto store = new_store(options_.path, options_.store.overwrite);
+  if (!store) {
+    if (!aside_.empty() && put_map_back(aside_, options_.path)) aside_.clear();
+    return forward_error(std::move(store));
+  }
+  adopt(std::move(*store), options_.path);
   return Done{};
 }
 
-/// The tracker has lost its place: what was mapped lies anywhere, seen from now on.
-Status MappingSession::start_again() {
+Status MappingSession::create_file() {
+  if (paths_.empty()) return create_first_file();
+  const auto path = free_path_of_world(options_.path, summary_.restarts + 1);
+  auto store = new_store(path, false);  // in flight nobody can be asked
+  if (!store) return forward_error(std::move(store));
+  adopt(std::move(*store), path);
+  return Done{};
+}
+
+/// The tracker has lost its place: what was mapped lies anywhere, seen from now on. It is kept in
+/// its file.
+void MappingSession::start_again(std::uint32_t pose_epoch) {
+  close_file();
   ++summary_.restarts;
-  archive_.detach();
-  store_.reset();
-  options_.store.overwrite = true;  // the file is ours by now
-  return begin_map(MapperConfig(mapper_->config()));
+  pose_epoch_ = pose_epoch;
+  mapper_->begin_world(pose_epoch);
+  if (options_.observer != nullptr) options_.observer->map_begun(*mapper_);
 }
 
 Status MappingSession::integrate(const Frame& frame) {
-  const bool is_new_world = frame.pose_epoch != pose_epoch_;
-  pose_epoch_ = frame.pose_epoch;
-  if (is_new_world && has_map()) {
-    if (auto started = start_again(); !started) return started;
-  }
+  const bool keeps = mapper_->config().on_new_world == kKeepInNewWorld;
+  if (!keeps && start_m_ && frame.pose_epoch > pose_epoch_) start_again(frame.pose_epoch);
   const MapUpdate update = mapper_->integrate(frame);
   book(frame, update);
   if (options_.observer != nullptr) options_.observer->frame_done(frame, update, *mapper_);
   if (update.verdict != FrameVerdict::kIntegrated) return Done{};
-  if (store_ == nullptr) return create_file(frame.T_world_camera.translation());
-  if (!update.shift.moved) return Done{};
-  const TileStoreStats stats = store_->stats();
-  if (stats.lost == 0) return Done{};
-  if (stats.error) return tl::make_unexpected(*stats.error);
-  return fail(ErrorCode::kIo, options_.path, fmt::format("{} blocks were lost", stats.lost),
-              "write to a faster disk with room");
-}
-
-Status MappingSession::save() {
-  // No snapshot (readers hold all of them): the store writes the newest that was published.
-  if (auto closed = store_->close(mapper_->snapshot()); !closed) return closed;
-  auto file = read_back();
-  if (!file) return forward_error(std::move(file));
-  summary_.file = std::move(*file);
-  if (is_old_map_aside_) MapFile::remove(path_aside(options_.path));
+  const bool is_first = !start_m_;
+  if (is_first) {
+    start_m_ = frame.T_world_camera.translation();
+    pose_epoch_ = frame.pose_epoch;
+  }
+  if (update.shift.moved) count_losses();
+  // Not with every frame: a disk that has just refused will do it again.
+  if (store_ != nullptr || !(is_first || update.shift.moved)) return Done{};
+  Status made = create_file();
+  if (made || paths_.empty()) return made;
+  keep_failure(std::move(made).error());  // of a later world: the flight goes on
   return Done{};
 }
 
-Expected<SavedFile> MappingSession::read_back() const {
-  auto map = load_map(options_.path);
+void MappingSession::count_losses() {
+  summary_.blocks_lost = lost_before_ + archive_.lost();
+  if (store_ != nullptr) summary_.blocks_lost += store_->stats().lost;
+}
+
+/// No snapshot (readers hold all of them): the store writes the newest that was published.
+void MappingSession::close_file() {
+  if (!start_m_) return;
+  if (store_ == nullptr) {
+    if (auto made = create_file(); !made) keep_failure(std::move(made).error());
+  }
+  start_m_.reset();
+  if (store_ == nullptr) return;
+  if (auto closed = store_->close(mapper_->snapshot()); !closed)
+    keep_failure(std::move(closed).error());
+  lost_before_ += store_->stats().lost;
+  archive_.detach();
+  store_.reset();
+  count_losses();
+}
+
+/// Only now, when every file is closed: until then they are of a flight that may be cut off.
+void MappingSession::mark_saved() {
+  const bool is_whole = !failure_ && summary_.blocks_lost == 0;
+  // The first, by whose name the next start judges, at last.
+  for (auto path = paths_.rbegin(); path != paths_.rend(); ++path) {
+    if (auto marked = mark_map(*path, kFlightKey, is_whole ? kSavedWhole : kSavedInPart); !marked)
+      keep_failure(std::move(marked).error());
+  }
+}
+
+Status MappingSession::save() {
+  close_file();
+  mark_saved();
+  for (const auto& path : paths_) {
+    if (auto file = read_back(path)) {
+      summary_.files.push_back(std::move(*file));
+    } else {
+      keep_failure(std::move(file).error());
+    }
+  }
+  if (summary_.blocks_lost > 0) {
+    return fail(ErrorCode::kIo, options_.path,
+                fmt::format("the disk had no room for {} blocks of the map, which are lost{}",
+                            summary_.blocks_lost, failure_ ? " (" + failure_->what + ")" : ""),
+                "make room and fly again; what was written is saved");
+  }
+  if (failure_) return tl::make_unexpected(*failure_);
+  if (!aside_.empty()) MapFile::remove(aside_);
+  aside_.clear();
+  return Done{};
+}
+
+Expected<SavedFile> MappingSession::read_back(const std::filesystem::path& path) const {
+  auto map = load_map(path);
   if (!map) return forward_error(std::move(map));
   auto counted = summarize(*map, mapper_->config().occupancy);
   if (!counted) return forward_error(std::move(counted));
   std::error_code unreadable;  // then the size stays 0: it is only shown
-  const auto bytes = std::filesystem::file_size(options_.path, unreadable);
-  return SavedFile{options_.path,
+  const auto bytes = std::filesystem::file_size(path, unreadable);
+  return SavedFile{path.string(),
                    unreadable ? 0 : bytes,
                    map->block_count(),
+                   map->frames(),
                    {counted->count(Occupancy::kFree), counted->count(Occupancy::kUnknown),
                     counted->count(Occupancy::kOccupied)}};
 }

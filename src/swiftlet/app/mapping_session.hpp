@@ -3,8 +3,11 @@
 
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "swiftlet/app/session_observer.hpp"
 #include "swiftlet/app/summary.hpp"
@@ -20,12 +23,12 @@ struct SessionOptions {
   SessionObserver* observer = nullptr;  ///< null: nobody looks on; else it outlives the session
 };
 
-/// Where a map stands while the one that replaces it is made.
-[[nodiscard]] inline std::string path_aside(const std::string& path) { return path + ".bak"; }
-
-/// Maps frames into a file. The file is made when the first frame has been integrated and not
-/// before, so that input without any use leaves none. A map that it replaces stands aside until the
-/// new one is saved.
+/// Maps frames into files: one a world, since poses that lose their place begin a new one. A file
+/// is made when the first frame of its world has been integrated and not before, so that input
+/// without any use leaves none. A map that the first one replaces stands aside until all are saved.
+///
+/// A disk that refuses does not end the flight, which maps on in memory: what is lost is counted,
+/// and save() says so.
 /// Thread safety: none, one owner.
 class MappingSession {
  public:
@@ -33,17 +36,20 @@ class MappingSession {
   [[nodiscard]] static Expected<std::unique_ptr<MappingSession>> create(
       const MapperConfig& config, const SessionOptions& options);
 
-  /// Fuses one frame; one of a new pose epoch begins the map and its file anew. Errors: kUsage,
-  /// kInvalidConfig, kIo if the map file cannot be made; kIo if the disk has refused for so long
-  /// that blocks of the map were lost.
+  /// Fuses one frame; one of a new world goes into a map and a file of its own, unless
+  /// map.on_new_world is `keep`. Errors: kUsage, kInvalidConfig, kIo if the first file cannot be
+  /// made.
   [[nodiscard]] Status integrate(const Frame& frame);
 
-  /// Writes what is left and closes the file; counts what it holds.
-  /// Errors: kIo; what the last good batch held is in the file. REQUIRES: has_map().
+  /// Writes what is left, closes the files and counts what they hold.
+  /// Errors: kIo if blocks were lost or a file is not whole; the rest is in the files that the
+  /// summary lists. REQUIRES: has_map().
   [[nodiscard]] Status save();
 
   /// Whether any frame has been integrated, so that there is a file.
-  [[nodiscard]] bool has_map() const { return store_ != nullptr; }
+  [[nodiscard]] bool has_map() const { return !paths_.empty(); }
+  /// Where the map is that should have been replaced, if save() has left it; else empty.
+  [[nodiscard]] const std::filesystem::path& aside() const { return aside_; }
 
   [[nodiscard]] const MappingSummary& summary() const { return summary_; }
   [[nodiscard]] MappingSummary& summary() { return summary_; }
@@ -52,11 +58,13 @@ class MappingSession {
   /// Stands in for the store until there is one: in a new map there is nothing to restore yet.
   class LateArchive final : public BlockArchive {
    public:
-    explicit LateArchive(SessionObserver* observer) : observer_(observer) {}
+    explicit LateArchive(const SessionOptions& options)
+        : observer_(options.observer), drops_(options.store.policy == StorePolicy::kDrop) {}
     void attach(BlockArchive& store) { store_ = &store; }
     void detach() { store_ = nullptr; }
     void evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) override {
       if (store_ != nullptr) store_->evict(index, block, version);
+      if (store_ == nullptr && !drops_) ++lost_;
       if (observer_ != nullptr) observer_->block_left(index, block, version);
     }
     [[nodiscard]] bool restore(const BlockIndex& index, VoxelBlock& out) override {
@@ -66,28 +74,43 @@ class MappingSession {
       if (store_ != nullptr) store_->expect_around(window);
     }
 
+    /// Blocks that came while there was no store.
+    [[nodiscard]] std::uint64_t lost() const { return lost_; }
+
    private:
     BlockArchive* store_ = nullptr;
     SessionObserver* observer_;
+    bool drops_;
+    std::uint64_t lost_ = 0;
   };
 
-  explicit MappingSession(const SessionOptions& options)
-      : options_(options), archive_(options.observer) {}
+  explicit MappingSession(const SessionOptions& options) : options_(options), archive_(options) {}
   [[nodiscard]] Status begin_map(const MapperConfig& config);
-  [[nodiscard]] Status create_file(const Eigen::Vector3d& start_m);
-  [[nodiscard]] Status set_old_map_aside();
-  [[nodiscard]] Expected<SavedFile> read_back() const;
-  [[nodiscard]] Status start_again();
+  [[nodiscard]] Status create_file();
+  [[nodiscard]] Status create_first_file();
+  [[nodiscard]] Expected<std::unique_ptr<TileStore>> new_store(const std::filesystem::path& path,
+                                                               bool overwrite);
+  void adopt(std::unique_ptr<TileStore> store, const std::filesystem::path& path);
+  [[nodiscard]] Expected<SavedFile> read_back(const std::filesystem::path& path) const;
+  void start_again(std::uint32_t pose_epoch);
+  void close_file();
+  void mark_saved();
+  void count_losses();
+  void keep_failure(Error failure);
   void book(const Frame& frame, const MapUpdate& update);
 
   SessionOptions options_;
-  bool is_old_map_aside_ = false;
+  std::filesystem::path aside_;  // the map that is to be replaced; empty if there is none
   MappingSummary summary_;
   // In this order: the mapper calls the archive, which calls the store, which reads the map.
   std::unique_ptr<TileStore> store_;
   LateArchive archive_;
   std::unique_ptr<Mapper> mapper_;
+  std::optional<Eigen::Vector3d> start_m_;  // of this world; nullopt until a frame is integrated
   std::uint32_t pose_epoch_ = 0;
+  std::vector<std::filesystem::path> paths_;  // of the files so far
+  std::uint64_t lost_before_ = 0;             // blocks, in files that are closed
+  std::optional<Error> failure_;              // the first
 };
 
 }  // namespace swiftlet::app

@@ -52,7 +52,7 @@ std::string poses_text(const FrameTally& tally, std::size_t restarts) {
   if (tally.poses_refused > 0)
     text += fmt::format("  poses      {} refused ({})\n", tally.poses_refused, reasons_text(tally));
   if (tally.pose_jumps > 0) {
-    text += fmt::format("  jumps      {} of the pose source; map started again {} times\n",
+    text += fmt::format("  jumps      {} of the pose source; a new map began {} times\n",
                         tally.pose_jumps, restarts);
   }
   if (tally.stale_alarms > 0)
@@ -96,6 +96,26 @@ std::string dropped_text(const std::map<std::string, std::size_t>& dropped) {
     reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
   }
   return fmt::format("  dropped    {} ({})\n", sum, reasons);
+}
+
+std::string files_text(const std::vector<SavedFile>& files) {
+  std::string text;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto& [path, bytes, blocks, frames, cells] = files[i];
+    if (files.size() > 1) text += fmt::format("  world {:<4} {} frames\n", i + 1, frames);
+    text += fmt::format("  cells      {} occupied, {} free, {} unknown in {} blocks\n",
+                        cells.occupied, cells.free, cells.unknown, blocks);
+    text += fmt::format("  map        {} ({})\n", path, size_text(bytes));
+  }
+  return text;
+}
+
+nlohmann::ordered_json file_json(const SavedFile& file) {
+  return {{"path", file.path}, {"bytes", file.bytes}, {"blocks", file.blocks}};
+}
+
+nlohmann::ordered_json cells_json(const CellCounts& cells) {
+  return {{"occupied", cells.occupied}, {"free", cells.free}, {"unknown", cells.unknown}};
 }
 
 nlohmann::ordered_json latency_json(const Latency& latency) {
@@ -156,12 +176,10 @@ std::string summary_text(const MappingSummary& s) {
   text += latency_text(s.latency);
   text += fmt::format("  window     {}; {} blocks evicted, {} restored\n",
                       size_text(s.memory_bytes), s.blocks_evicted, s.blocks_restored);
-  if (!s.file) return text;
-  const CellCounts& cells = s.file->cells;
-  text += fmt::format("  cells      {} occupied, {} free, {} unknown in {} blocks\n",
-                      cells.occupied, cells.free, cells.unknown, s.file->blocks);
-  text += fmt::format("  map        {} ({})\n", s.file->path, size_text(s.file->bytes));
-  return text;
+  if (s.blocks_lost > 0)
+    text +=
+        fmt::format("  lost       {} blocks of the map: the disk refused them\n", s.blocks_lost);
+  return text + files_text(s.files);
 }
 
 std::string summary_json(const MappingSummary& s) {
@@ -186,13 +204,18 @@ std::string summary_json(const MappingSummary& s) {
       {"memory_bytes", s.memory_bytes},
       {"blocks_evicted", s.blocks_evicted},
       {"blocks_restored", s.blocks_restored},
+      {"blocks_lost", s.blocks_lost},
       {"was_interrupted", s.was_interrupted},
   };
-  if (s.file) {
-    json["cells"] = {{"occupied", s.file->cells.occupied},
-                     {"free", s.file->cells.free},
-                     {"unknown", s.file->cells.unknown}};
-    json["map"] = {{"path", s.file->path}, {"bytes", s.file->bytes}, {"blocks", s.file->blocks}};
+  if (!s.files.empty()) {  // the first is the one that was asked for
+    json["cells"] = cells_json(s.files.front().cells);
+    json["map"] = file_json(s.files.front());
+  }
+  json["maps"] = nlohmann::ordered_json::array();
+  for (const SavedFile& file : s.files) {
+    json["maps"].push_back(file_json(file));
+    json["maps"].back()["frames"] = file.frames;
+    json["maps"].back()["cells"] = cells_json(file.cells);
   }
   return json_text(json) + "\n";
 }

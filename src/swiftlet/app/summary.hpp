@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "swiftlet/app/latency.hpp"
 #include "swiftlet/pipeline/mapper.hpp"
@@ -16,11 +16,12 @@
 
 namespace swiftlet::app {
 
-/// The map file that a run has written.
+/// A map file that a run has written.
 struct SavedFile {
   std::string path;
   std::uintmax_t bytes = 0;
   std::size_t blocks = 0;
+  std::uint64_t frames = 0;
   CellCounts cells;
 };
 
@@ -38,9 +39,10 @@ struct MappingSummary {
   std::size_t blocks_evicted = 0;
   std::size_t blocks_restored = 0;
   std::size_t memory_bytes = 0;  ///< window and scratch
-  std::size_t restarts = 0;      ///< times the map was begun anew, after a jump of the poses
+  std::size_t restarts = 0;      ///< times the poses lost their place, and a new map began
   bool was_interrupted = false;
-  std::optional<SavedFile> file;  ///< absent until the map is saved
+  std::uint64_t blocks_lost = 0;  ///< of the map, since the disk refused them
+  std::vector<SavedFile> files;   ///< one a world; none until the map is saved
 
   [[nodiscard]] std::size_t integrated() const { return verdicts[0]; }
   /// Frames that did not reach the map, by reason; reasons that did not occur are left out.

@@ -35,7 +35,7 @@ struct WorldFacts {
 };
 
 inline constexpr std::size_t kMaxStages = 4;
-inline constexpr std::size_t kMaxLosses = 8;
+inline constexpr std::size_t kMaxLosses = 16;
 
 /// What became of one frame: plain data, so that the mapping thread hands it over without
 /// allocating.
