@@ -12,20 +12,24 @@ volatile std::sig_atomic_t interrupted = 0;
 
 void ask_to_stop(int signal) {
   interrupted = 1;
-  std::signal(signal, SIG_DFL);  // whoever asks twice means it
+  if (signal != SIGHUP) std::signal(signal, SIG_DFL);  // whoever asks twice means it
 }
+
+bool is_to_be_ignored(int signal) { return signal == SIGPIPE || signal == SIGXFSZ; }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
   interrupted = 0;
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler == SIG_IGN) continue;
+    std::signal(kSignals[i], is_to_be_ignored(kSignals[i]) ? SIG_IGN : ask_to_stop);
+  }
 }
 
 InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
 }
 
 bool InterruptGuard::is_interrupted() const { return interrupted != 0; }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <new>
 #include <system_error>
@@ -70,6 +71,9 @@ int report(const CLI::App& program, const CLI::ParseError& stop) {
 }  // namespace
 
 int run_program(int argc, char** argv) {
+  // A file that reaches its limit (ulimit -f) is an error of writing, with a message and no half
+  // file left; for flights, InterruptGuard does more.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App program{"Swiftlet: real-time 3-D occupancy maps for small drones", "swiftlet"};
   program.set_version_flag("--version", "swiftlet " SWIFTLET_VERSION);
   program.footer(

@@ -39,7 +39,6 @@ std::string read_all(int descriptor) {
   if (file_limit_bytes > 0) {
     const rlimit limit{file_limit_bytes, file_limit_bytes};
     setrlimit(RLIMIT_FSIZE, &limit);
-    std::signal(SIGXFSZ, SIG_IGN);  // then write() fails, as on a full disk
   }
   execv(SWIFTLET_PROGRAM, words.data());
   _exit(127);
