@@ -88,7 +88,8 @@ export class StatusPanel {
       return;
     }
     out.dataset.sync = isSealed ? 'equal' : 'behind';
-    out.textContent = isSealed ? 'equals the mapper’s' : `${grouped(pending)} blocks behind`;
+    const whole = this.world.status?.state === 'saved' ? 'equals the saved file' : 'equals the mapper’s';
+    out.textContent = isSealed ? whole : `${grouped(pending)} blocks behind`;
   }
 
   #banner(state: PageState, now_ms: number): void {

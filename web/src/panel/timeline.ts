@@ -82,7 +82,7 @@ export class Timeline {
       g.textAlign = 'right';
       g.fillText(share === 1 ? `${ms} ms` : `${share * ms}`, kLeft_px - 5, y(share));
       g.textAlign = 'left';
-      g.fillText(share === 1 ? `${fps} fps` : `${share * fps}`, width - kRight_px + 5, y(share));
+      g.fillText(share === 1 ? `${fps} Hz` : `${share * fps}`, width - kRight_px + 5, y(share));
     }
   }
 
@@ -93,7 +93,7 @@ export class Timeline {
     const frame = frames[i];
     if (!frame) return;
     const parts = [`#${frame.number}`, `${totalOf(frame).toFixed(1)} ms`, words(this.world.hello.verdicts[frame.verdict])];
-    if (rates[i]! > 0) parts.splice(2, 0, `${rates[i]!.toFixed(0)} fps`);
+    if (rates[i]! > 0) parts.splice(2, 0, `camera at ${rates[i]!.toFixed(0)} Hz`);
     if (frame.isLate) parts.push(`${frame.blocksLeft} blocks left`);
     const lost = frame.lost - (frames[i - 1]?.lost ?? frame.lost);
     if (lost > 0) parts.push(`${lost} lost before it`);

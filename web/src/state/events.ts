@@ -18,17 +18,19 @@ export const poseLosses = ['no_pose', 'pose_gap', 'pose_refused', 'pose_jump', '
 const kKept = 60;
 const kArrivalsKept = 200;
 
-/// What happened, newest first. The same thing again within a moment counts up instead of filling the list.
+/// What happened, newest first. The same thing again within a moment counts up instead of filling the list; moves of the
+/// window, which every flight has by the hundred, count up wherever they stand and push nothing else out.
 export class EventLog {
   list: FlightEvent[] = [];
   poseLostAt_ms = -Infinity;
   #losses: number[] | null = null; // null: not told yet
 
   add(kind: EventKind, text: string, count = 1): void {
-    const newest = this.list[0];
-    if (newest && newest.kind === kind && newest.text === text) {
-      newest.count += count;
-      newest.at = new Date();
+    const isSame = (event: FlightEvent | undefined): boolean => event?.kind === kind && event.text === text;
+    const known = kind === 'shift' ? this.list.find(isSame) : this.list.slice(0, 1).find(isSame);
+    if (known) {
+      known.count += count;
+      known.at = new Date();
       return;
     }
     this.list.unshift({at: new Date(), kind, text, count});

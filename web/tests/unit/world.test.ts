@@ -137,6 +137,16 @@ describe('walk', () => {
 });
 
 describe('EventLog', () => {
+  it('keeps what matters in sight however often the window moves', () => {
+    const log = new EventLog();
+    for (let i = 0; i < 100; ++i) {
+      log.add('shift', 'the window moved');
+      if (i % 20 === 0) log.add('refused', `refused: ${i}`);
+    }
+    expect(log.list.filter((event) => event.kind === 'shift').map((event) => event.count)).toEqual([100]);
+    expect(log.list.slice(0, 5).every((event) => event.kind === 'refused')).toBe(true);
+  });
+
   it('tells refused frames, and lost poses from other losses', () => {
     const log = new EventLog();
     log.frames([{...frame(1), verdict: 1}, {...frame(2), verdict: 1}, {...frame(3), isLate: true}], hello);
