@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-// Question: how do I turn a recording into a map? (In memory; `swiftlet map` also writes it to a file.)
+// Question: how do I turn a recording into a map? (`swiftlet map` also saves it to a file.)
 // Run: example_01_map_a_folder 7scenes:FOLDER   (or tum:FOLDER, or sim:apartment)
 
 #include <cstdio>
