@@ -14,8 +14,11 @@
 namespace swiftlet::station {
 namespace {
 
+using ::testing::_;
+using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::Pair;
 
 TEST(Access, a_page_from_elsewhere_gets_nothing) {
@@ -79,15 +82,44 @@ TEST(Access, tokens_are_made_good_and_different) {
   }
 }
 
-TEST(HttpAnswer, refusals_have_no_body_and_no_word_of_what_runs_here) {
+TEST(Access, who_knows_the_token_may_call_the_machine_by_any_name) {
   const AccessRules rules{.token = "s3cret-token", .origins = {}};
-  for (const Credentials& who : {Credentials{.host = "127.0.0.1", .target = "/"},
-                                 Credentials{.host = "evil.example", .target = "/"}}) {
-    const HttpAnswer refused = answer(rules, {"GET", who}, {});
+  const auto with = [&](std::string_view target, std::string_view origin) {
+    return judge(rules, {.host = "drone.local:18472", .origin = origin, .target = target});
+  };
+  EXPECT_EQ(with("/?token=s3cret-token", ""), Verdict::kAllowed);
+  EXPECT_EQ(with("/?token=s3cret-token", "http://drone.local:18472"), Verdict::kAllowed);
+  EXPECT_EQ(with("/?token=s3cret-token", "http://evil.example"), Verdict::kWrongOrigin);
+  EXPECT_EQ(with("/?token=other-token", ""), Verdict::kWrongToken);
+  EXPECT_EQ(with("/", ""), Verdict::kWrongToken);
+}
+
+TEST(HttpAnswer, refusals_say_why_and_no_word_of_what_runs_here) {
+  const AccessRules rules{.token = "s3cret-token", .origins = {}};
+  const auto text_of = [](const AccessRules& asked, const Credentials& who) {
+    const HttpAnswer refused = answer(asked, {"GET", who}, {});
     EXPECT_GE(refused.status, 400);
     EXPECT_TRUE(refused.body.empty());
-    EXPECT_TRUE(refused.headers.empty());
-  }
+    EXPECT_THAT(refused.text, Not(AnyOf(HasSubstr("wiftlet"), HasSubstr("s3cret"))));
+    EXPECT_THAT(refused.headers, Contains(Pair("Content-Type", HasSubstr("text/plain"))));
+    EXPECT_THAT(refused.headers, Not(Contains(Pair("Set-Cookie", _))));
+    return refused.text;
+  };
+  EXPECT_THAT(text_of(rules, {.host = "127.0.0.1", .target = "/"}), HasSubstr("no token"));
+  EXPECT_THAT(text_of(rules, {.host = "127.0.0.1", .target = "/?token=x"}), HasSubstr("wrong"));
+  EXPECT_THAT(text_of({}, {.host = "drone.local:18472", .target = "/"}),
+              HasSubstr("--origin http://drone.local:18472"));
+  EXPECT_THAT(text_of({}, {.host = "127.0.0.1:1", .origin = "https://a.example", .target = "/"}),
+              HasSubstr("--origin https://a.example"));
+}
+
+TEST(HttpAnswer, a_refusal_repeats_no_markup_and_no_escapes) {
+  const Credentials who{.host = "<b>\x1b[2J\r\nX: y", .target = "/"};
+  const std::string text = answer({}, {"GET", who}, {}).text;
+  EXPECT_THAT(text, HasSubstr("?b??[2J??X"));
+  EXPECT_THAT(text, Not(AnyOf(HasSubstr("<"), HasSubstr("\x1b"), HasSubstr("\r"))));
+  const std::string long_name(5000, 'a');
+  EXPECT_LT(answer({}, {"GET", {.host = long_name, .target = "/"}}, {}).text.size(), 500U);
 }
 
 TEST(HttpAnswer, serves_files_with_a_policy_that_forbids_all_others) {

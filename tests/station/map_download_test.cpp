@@ -10,10 +10,8 @@
 #include <cstring>
 #include <latch>
 
-#include "station/raw_socket.hpp"
 #include "station/requests.hpp"
-#include "station/station_world.hpp"
-#include "swiftlet/station/station.hpp"
+#include "station/served_flight.hpp"
 
 #if SWIFTLET_HAS_VIEW
 namespace swiftlet::station {
@@ -47,23 +45,14 @@ MapDigest digest_of(std::string_view file) {
   return map.digest();
 }
 
-class MapDownload : public ::testing::Test {
+class MapDownload : public ServedFlight {
  protected:
-  void start(MapSaver saver, const std::string& token = "") {
+  void start(MapSaver saver, const std::string& token = "", std::size_t max_downloads = 16) {
     StationOptions options;
-    options.listen.port = 0;
     options.access.token = token;
-    options.tick = std::chrono::milliseconds(5);
     options.save_map = std::move(saver);
-    auto station = Station::start(options, flight_.feed);
-    ASSERT_TRUE(station) << station.error().text();
-    station_ = std::move(*station);
-    port_ = station_->address().port;
-  }
-  std::string answer_to(const std::string& request) const {
-    RawSocket socket(port_);
-    socket.send(request);
-    return socket.receive_all();
+    options.max_downloads = max_downloads;
+    serve(options);
   }
   /// Asks until the station has seen the whole flight, which it looks at in its own time.
   std::string body_of_whole_map() const {
@@ -74,11 +63,6 @@ class MapDownload : public ::testing::Test {
       if (body.size() < 8 || digest_of(body) == flight_.truth()) return body;
     }
   }
-
-  test::Random random_;
-  RandomFlight flight_{random_};
-  std::unique_ptr<Station> station_;
-  std::uint16_t port_ = 0;
 };
 
 TEST_F(MapDownload, is_the_whole_map_as_of_one_frame) {
@@ -105,7 +89,7 @@ TEST_F(MapDownload, is_only_for_who_may_look_and_asks_by_himself) {
         get(port_, "Sec-Fetch-Site: cross-site\r\n", known)}) {
     const std::string said = answer_to(request);
     EXPECT_THAT(said, testing::ContainsRegex("^HTTP/1.1 40[13] ")) << request;
-    EXPECT_THAT(said, HasSubstr("Content-Length: 0")) << request;
+    EXPECT_THAT(said, HasSubstr("Content-Type: text/plain")) << request;
   }
   std::string head = get(port_, "", known);
   head.replace(0, 3, "HEAD");
@@ -147,6 +131,31 @@ TEST_F(MapDownload, is_made_once_for_all_who_ask_meanwhile_and_holds_up_nobody_e
     if (first.empty()) first = said;
     EXPECT_EQ(said, first);
   }
+}
+
+TEST_F(MapDownload, leaves_room_for_others_and_says_when_to_come_back) {
+  flight_.step();
+  std::latch is_asked{1};
+  std::latch may_go_on{1};
+  start(
+      [&](const MapCopy& map) -> Expected<std::vector<std::uint8_t>> {
+        is_asked.count_down();
+        may_go_on.wait();
+        return plain_file(map);
+      },
+      "", 1);
+  RawSocket client(port_);
+  client.send(upgrade(port_));
+  EXPECT_THAT(client.receive_head(), StartsWith("HTTP/1.1 101"));
+  while (client.next_message().first == 1) continue;  // the hello; then the map
+  RawSocket first(port_);
+  first.send(get(port_, "", "/map.swl"));
+  is_asked.wait();
+  const std::string second = answer_to(get(port_, "", "/map.swl"));
+  may_go_on.count_down();
+  EXPECT_THAT(second, StartsWith("HTTP/1.1 503"));
+  EXPECT_THAT(second, HasSubstr("Retry-After: 5"));
+  EXPECT_THAT(first.receive_all(), StartsWith("HTTP/1.1 200"));
 }
 
 TEST_F(MapDownload, says_that_nothing_has_been_mapped_yet) {

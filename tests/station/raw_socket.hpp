@@ -33,6 +33,8 @@ class RawSocket {
   RawSocket(const RawSocket&) = delete;
   RawSocket& operator=(const RawSocket&) = delete;
 
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
   void send(const std::string& bytes) const {
     (void)::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   }

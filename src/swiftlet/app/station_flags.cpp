@@ -4,12 +4,23 @@
 #include "swiftlet/app/station_flags.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <thread>
 
 namespace swiftlet::app {
+namespace {
+
+/// In one piece, and over a line of progress that may stand there: the station's thread calls it.
+void tell_line(const std::string& what) {
+  const char* clear_line = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
+  std::fputs(fmt::format("{}ground station: {}\n", clear_line, what).c_str(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace
 
 void declare_station_flags(CLI::App& parser, StationFlags& flags) {
   constexpr const char* kGroup = "Ground station";
@@ -34,6 +45,7 @@ Expected<station::StationOptions> station_options(const StationFlags& flags) {
   station::StationOptions options;
   options.listen = std::move(*address);
   options.access = {flags.token, flags.origins};
+  options.tell = tell_line;
   if (options.access.token.empty() && !options.listen.is_loopback()) {
     options.access.token = station::random_token();
   }
@@ -41,8 +53,7 @@ Expected<station::StationOptions> station_options(const StationFlags& flags) {
 }
 
 void tell_address(const station::Station& station) {
-  std::fputs(fmt::format("ground station: {}\n", station.url()).c_str(), stderr);
-  std::fflush(stderr);
+  tell_line(station.url());
 }
 
 void wait_for(const InterruptGuard& interrupt) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <random>
 
@@ -48,6 +49,16 @@ std::string_view cookie_value(std::string_view cookies, std::string_view key) {
   return {};
 }
 
+/// The three places that a token may come in.
+std::array<std::string_view, 3> tokens_of(const Credentials& credentials) {
+  constexpr std::string_view kBearer = "Bearer ";
+  const std::string_view bearer = credentials.authorization.starts_with(kBearer)
+                                      ? credentials.authorization.substr(kBearer.size())
+                                      : std::string_view{};
+  return {query_value(credentials.target, "token"), cookie_value(credentials.cookie, kTokenCookie),
+          bearer};
+}
+
 }  // namespace
 
 bool is_same_secret(std::string_view a, std::string_view b) {
@@ -74,14 +85,18 @@ std::string_view query_value(std::string_view target, std::string_view key) {
   return {};
 }
 
+bool offers_token(const Credentials& credentials) {
+  return std::ranges::any_of(tokens_of(credentials), [](auto token) { return !token.empty(); });
+}
+
 Verdict judge(const AccessRules& rules, const Credentials& credentials) {
   const auto names_host = [&](const std::string& origin) {
     return without_scheme(origin) == credentials.host;
   };
-  if (!is_numeric_or_local(host_name(credentials.host)) &&
-      std::ranges::none_of(rules.origins, names_host)) {
-    return Verdict::kWrongHost;
-  }
+  const bool knows_host = is_numeric_or_local(host_name(credentials.host)) ||
+                          std::ranges::any_of(rules.origins, names_host);
+  // A page that was made to point here does not know the token, whatever it calls this machine.
+  if (!knows_host && rules.token.empty()) return Verdict::kWrongHost;
   if (!credentials.origin.empty()) {
     const bool is_own = credentials.origin == fmt::format("http://{}", credentials.host);
     const bool is_allowed =
@@ -89,12 +104,7 @@ Verdict judge(const AccessRules& rules, const Credentials& credentials) {
     if (!is_own && !is_allowed) return Verdict::kWrongOrigin;
   }
   if (rules.token.empty()) return Verdict::kAllowed;
-  constexpr std::string_view kBearer = "Bearer ";
-  const std::string_view bearer = credentials.authorization.starts_with(kBearer)
-                                      ? credentials.authorization.substr(kBearer.size())
-                                      : std::string_view{};
-  for (const std::string_view offered : {query_value(credentials.target, "token"),
-                                         cookie_value(credentials.cookie, kTokenCookie), bearer}) {
+  for (const std::string_view offered : tokens_of(credentials)) {
     if (is_same_secret(rules.token, offered)) return Verdict::kAllowed;
   }
   return Verdict::kWrongToken;

@@ -25,12 +25,22 @@ struct Credentials {
   std::string_view authorization{};  ///< header Authorization
 };
 
-enum class Verdict : unsigned char { kAllowed, kWrongHost, kWrongOrigin, kWrongToken };
+enum class Verdict : unsigned char {
+  kAllowed,
+  kWrongHost,
+  kWrongOrigin,
+  kWrongToken,
+  kTooManyTries,  ///< never from judge(): see Door
+};
 
 /// Host must be numeric, localhost or that of an allowed origin, which no name that was made to
-/// point here is (DNS rebinding). An Origin must be our own page's or allowed. The token, if there
-/// is one, must come as `?token=`, as our cookie or as `Authorization: Bearer`.
+/// point here is (DNS rebinding); whoever knows the token may use any name. An Origin must be our
+/// own page's or allowed. The token, if there is one, must come as `?token=`, as our cookie or as
+/// `Authorization: Bearer`.
 [[nodiscard]] Verdict judge(const AccessRules& rules, const Credentials& credentials);
+
+/// Whether it comes with any token, right or wrong.
+[[nodiscard]] bool offers_token(const Credentials& credentials);
 
 /// Takes the same time wherever the two differ.
 [[nodiscard]] bool is_same_secret(std::string_view a, std::string_view b);

@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "swiftlet/station/refusal.hpp"
 
 namespace swiftlet::station {
 namespace {
@@ -28,7 +31,11 @@ HttpAnswer blank(int status, std::string_view host) {
 
 /// The map file costs the station work, which no other page may cause.
 HttpAnswer map_answer(const HttpQuestion& question) {
-  if (question.site == "cross-site" || question.site == "same-site") return {403, {}, {}};
+  if (question.site == "cross-site" || question.site == "same-site") {
+    return plain_answer(403,
+                        "a page of another site may not ask for the map; open the address "
+                        "of the map itself");
+  }
   HttpAnswer found = blank(question.method == "GET" ? 200 : 405, question.credentials.host);
   if (found.status == 405) {
     found.headers.emplace_back("Allow", "GET");
@@ -51,19 +58,35 @@ bool is_printable_host(std::string_view host) {
 
 }  // namespace
 
+HttpAnswer plain_answer(int status, std::string_view line,
+                        std::vector<std::pair<std::string, std::string>> headers) {
+  headers.emplace_back("Content-Type", "text/plain; charset=utf-8");
+  headers.emplace_back("X-Content-Type-Options", "nosniff");
+  headers.emplace_back("Cache-Control", "no-store");
+  return {.status = status, .headers = std::move(headers), .text = fmt::format("{}\n", line)};
+}
+
+HttpAnswer refusal(Verdict verdict, const Credentials& who) {
+  std::vector<std::pair<std::string, std::string>> headers;
+  if (verdict == Verdict::kTooManyTries) headers.emplace_back("Retry-After", "30");
+  if (verdict == Verdict::kWrongToken) headers.emplace_back("WWW-Authenticate", "Bearer");
+  return plain_answer(refusal_status(verdict), refusal_reason(verdict, who), std::move(headers));
+}
+
+HttpAnswer busy_answer(std::string_view what) {
+  return plain_answer(503, fmt::format("{}; try again in a few seconds", what),
+                      {{"Retry-After", "5"}});
+}
+
 HttpAnswer answer(const AccessRules& rules, const HttpQuestion& question,
                   std::span<const PageFile> files) {
   const Credentials& who = question.credentials;
-  switch (judge(rules, who)) {
-    case Verdict::kAllowed:
-      break;
-    case Verdict::kWrongToken:
-      return {401, {}, {}};
-    case Verdict::kWrongHost:
-    case Verdict::kWrongOrigin:
-      return {403, {}, {}};
+  if (const Verdict verdict = judge(rules, who); verdict != Verdict::kAllowed) {
+    return refusal(verdict, who);
   }
-  if (!is_printable_host(who.host)) return {400, {}, {}};
+  if (!is_printable_host(who.host)) {
+    return plain_answer(400, "the host name holds characters that no host name has");
+  }
   if (question.method != "GET" && question.method != "HEAD") {
     HttpAnswer refused = blank(405, who.host);
     refused.headers.emplace_back("Allow", "GET, HEAD");

@@ -29,13 +29,23 @@ struct HttpQuestion {
   std::string_view site{};  ///< header Sec-Fetch-Site: what page is behind it, if a browser asks
 };
 
-/// What it gets. No body where it is refused.
+/// What it gets.
 struct HttpAnswer {
   int status = 200;
-  std::vector<std::pair<std::string, std::string>> headers;
-  std::span<const std::uint8_t> body;
+  std::vector<std::pair<std::string, std::string>> headers{};
+  std::span<const std::uint8_t> body{};
+  std::string text{};   ///< the body instead, where it is not linked into the program
   bool is_map = false;  ///< the body is to be the map file, which has to be made first
 };
+
+/// A line for people, with further headers. Says nothing of the map or of what runs here.
+[[nodiscard]] HttpAnswer plain_answer(
+    int status, std::string_view line,
+    std::vector<std::pair<std::string, std::string>> headers = {});
+/// Why a request is refused and what to do. REQUIRES: verdict != kAllowed
+[[nodiscard]] HttpAnswer refusal(Verdict verdict, const Credentials& who);
+/// There is no room at the moment.
+[[nodiscard]] HttpAnswer busy_answer(std::string_view what);
 
 /// Where the map file is to be had.
 inline constexpr std::string_view kMapPath = "/map.swl";

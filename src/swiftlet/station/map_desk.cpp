@@ -41,10 +41,18 @@ void MapDesk::ask(Time now, Ready ready) {
     ready(*last_);
     return;
   }
+  if (waiting_.empty()) {
+    last_.reset();
+    // The next file is about as large as the one before; one may always be made.
+    const std::size_t held = held_bytes();
+    if (held > 0 && held + last_size_ > max_bytes_) {
+      ready(fail(ErrorCode::kOutOfMemory, "map file", "others are still taking older ones"));
+      return;
+    }
+  }
   waiting_.push_back(std::move(ready));
   if (waiting_.size() > 1) return;
   last_at_ = now;
-  last_.reset();
   boost::asio::post(worker_, [this, copy = std::make_shared<const MapCopy>(copy_of(watch_))] {
     run_with_low_priority();
     auto file = std::make_shared<Expected<std::vector<std::uint8_t>>>(saver_(*copy));
@@ -56,7 +64,20 @@ void MapDesk::made(Expected<std::vector<std::uint8_t>>&& file) {
   last_ = std::move(file).map([](std::vector<std::uint8_t>&& bytes) -> SharedBytes {
     return std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
   });
+  if (*last_) {
+    std::erase_if(files_, [](const auto& old) { return old.expired(); });
+    files_.push_back(**last_);
+    last_size_ = (**last_)->size();
+  }
   for (const Ready& ready : std::exchange(waiting_, {})) ready(*last_);
+}
+
+std::size_t MapDesk::held_bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& file : files_) {
+    if (const auto held = file.lock()) bytes += held->size();
+  }
+  return bytes;
 }
 
 void MapDesk::tidy(Time now) {

@@ -44,9 +44,19 @@ class Server final : public Station {
       : Station(options.access.token),
         options_(options),
         watch_(std::move(watch)),
+        door_(options_.access, options_.tell, Clock::now()),
+        waiting_(options_.max_waiting),
+        answers_(options_.max_connections),
+        downloads_(options_.max_downloads),
+        sockets_(options_.max_clients),
         host_{options_.access,
+              door_,
+              waiting_,
+              answers_,
+              downloads_,
+              sockets_,
+              options_.patience,
               [this](std::string_view offered) { return choose_viewer(offered, watch_); },
-              [this] { return clients_.size() < options_.max_clients; },
               [this](auto session) { clients_.push_back(std::move(session)); },
               [this](auto ready) { desk_.ask(Clock::now(), std::move(ready)); }} {}
 
@@ -85,12 +95,26 @@ class Server final : public Station {
 
   void accept() {
     acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
-      const bool has_room =
-          static_cast<std::size_t>(connection_.use_count()) <= options_.max_connections;
-      // Without room the socket is closed at once, as it goes out of scope.
-      if (!error && has_room)
-        std::make_shared<HttpSession>(std::move(socket), host_, connection_)->read();
-      if (error != asio::error::operation_aborted) accept();
+      if (error == asio::error::operation_aborted) return;
+      if (error) return accept_later();
+      std::make_shared<HttpSession>(std::move(socket), host_)->read(options_.patience);
+      if (waiting_.sent_away() > sent_away_) {
+        sent_away_ = waiting_.sent_away();
+        door_.note("a connection", "more wait and ask nothing than there is room for",
+                   Clock::now());
+      }
+      accept();
+    });
+  }
+
+  /// The system has run out of descriptors or memory: asked again at once, it would say so again,
+  /// and this thread would do nothing else.
+  void accept_later() {
+    constexpr std::chrono::milliseconds kPause{100};
+    waiting_.send_one_away();
+    pause_.expires_after(kPause);
+    pause_.async_wait([this](boost::system::error_code error) {
+      if (!error) accept();
     });
   }
 
@@ -120,13 +144,19 @@ class Server final : public Station {
 
   StationOptions options_;
   MapWatch watch_;
+  Door door_;
+  WaitingRoom waiting_;
+  std::size_t sent_away_ = 0;
+  Places answers_;
+  Places downloads_;
+  Places sockets_;
   HttpHost host_;
   asio::io_context io_{1};
   tcp::acceptor acceptor_{io_};
   asio::steady_timer timer_{io_};
-  std::shared_ptr<void> connection_ = std::make_shared<int>(0);  // its users are counted
+  asio::steady_timer pause_{io_};
   std::vector<std::shared_ptr<SocketSession>> clients_;
-  MapDesk desk_{io_, watch_, options_.save_map};
+  MapDesk desk_{io_, watch_, options_.save_map, options_.max_download_bytes};
   std::thread thread_;
 };
 

@@ -2,6 +2,7 @@
 // Copyright the Swiftlet authors
 
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
 
 #include "swiftlet/station/socket_session_private.hpp"
 
@@ -11,9 +12,6 @@ namespace {
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using Clock = std::chrono::steady_clock;
-
-/// What may wait in the system: more than that is an old map by the time it arrives.
-constexpr int kSendBuffer_bytes = 128 * 1024;
 
 websocket::stream_base::timeout patience() {
   using namespace std::chrono_literals;
@@ -28,15 +26,18 @@ void SocketSession::accept(const HttpRequest& request, const std::string& subpro
   stream.expires_never();  // from here on the WebSocket's own time-outs hold
   boost::system::error_code ignored;
   stream.socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
-  stream.socket().set_option(boost::asio::socket_base::send_buffer_size(kSendBuffer_bytes),
-                             ignored);
   socket_.set_option(patience());
   socket_.set_option(websocket::stream_base::decorator([subprotocol](auto& response) {
     if (!subprotocol.empty()) response.set(beast::http::field::sec_websocket_protocol, subprotocol);
   }));
   socket_.auto_fragment(false);  // a message is one frame, as the packets are small already
   socket_.read_message_max(limits_.max_message);
-  allowance_ = TokenBucket(limits_.messages_per_s, 3.0 * limits_.messages_per_s, Clock::now());
+  const auto now = Clock::now();
+  allowance_ = TokenBucket(limits_.messages_per_s, 3.0 * limits_.messages_per_s, now);
+  control_allowance_ = TokenBucket(limits_.controls_per_s, 10.0 * limits_.controls_per_s, now);
+  // Held by the socket itself, which is a member.
+  socket_.control_callback(
+      [this](websocket::frame_type, beast::string_view) { count_control_frame(); });
   socket_.async_accept(
       request, [self = shared_from_this(), opened = std::move(opened)](beast::error_code error) {
         if (error) return;
@@ -75,6 +76,18 @@ void SocketSession::received(std::size_t size) {
   }
   pump();
   read();
+}
+
+/// Each ping makes the server write a pong, which no message counts.
+void SocketSession::count_control_frame() {
+  if (!is_open_) return;
+  if (control_allowance_.is_open(Clock::now())) {
+    control_allowance_.spend(1.0);
+    return;
+  }
+  is_open_ = false;
+  // Later, as the socket is in the middle of reading.
+  boost::asio::post(socket_.get_executor(), [self = shared_from_this()] { self->drop(); });
 }
 
 void SocketSession::pump() {

@@ -23,14 +23,19 @@ using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 class SocketSession : public std::enable_shared_from_this<SocketSession> {
  public:
   struct Limits {
-    std::size_t max_message = 0;     ///< from the client [bytes]
-    double messages_per_s = 20.0;    ///< from the client
+    std::size_t max_message = 0;   ///< from the client [bytes]
+    double messages_per_s = 20.0;  ///< from the client
+    double controls_per_s = 2.0;  ///< pings and pongs from the client; browsers send a few a minute
     std::chrono::seconds stall{30};  ///< a message that has not left by then
   };
 
+  /// Holds `place` for as long as it lives.
   SocketSession(boost::beast::tcp_stream&& stream, std::unique_ptr<Viewer> viewer,
-                const Limits& limits)
-      : socket_(std::move(stream)), viewer_(std::move(viewer)), limits_(limits) {}
+                const Limits& limits, std::shared_ptr<void> place)
+      : socket_(std::move(stream)),
+        viewer_(std::move(viewer)),
+        limits_(limits),
+        place_(std::move(place)) {}
 
   /// Answers the handshake, choosing this subprotocol; `opened` is called when the client is in.
   void accept(const HttpRequest& request, const std::string& subprotocol,
@@ -45,6 +50,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
  private:
   void read();
   void received(std::size_t size);
+  void count_control_frame();
   void close(boost::beast::websocket::close_code code, const std::string& reason);
   void drop();
 
@@ -52,7 +58,9 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   boost::beast::flat_buffer inbox_;
   std::unique_ptr<Viewer> viewer_;
   Limits limits_;
+  std::shared_ptr<void> place_;
   TokenBucket allowance_;
+  TokenBucket control_allowance_;
   Outgoing going_;  // while it is being written
   Viewer::Time since_{};
   bool is_writing_ = false;

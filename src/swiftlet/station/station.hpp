@@ -11,6 +11,7 @@
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/station/access.hpp"
+#include "swiftlet/station/door.hpp"
 #include "swiftlet/station/listen_address.hpp"
 #include "swiftlet/station/live_feed.hpp"
 #include "swiftlet/station/map_copy.hpp"
@@ -22,10 +23,15 @@ struct StationOptions {
   ListenAddress listen;
   /// Without a token the address must be a loopback one.
   AccessRules access;
-  std::size_t max_clients = 20;        ///< sockets with data; more are refused
-  std::size_t max_connections = 64;    ///< of all kinds
-  std::chrono::milliseconds tick{50};  ///< how often the map is looked at
-  MapSaver save_map;                   ///< for who asks for the map as a file; empty: nobody can
+  std::size_t max_clients = 20;      ///< sockets with data; more are refused
+  std::size_t max_connections = 64;  ///< requests being answered, of who may look
+  std::size_t max_downloads = 16;    ///< of the map file, among them
+  std::size_t max_waiting = 32;      ///< connections of who has not shown yet that he may look
+  std::size_t max_download_bytes = std::size_t{64} << 20U;  ///< of map files that are being taken
+  std::chrono::milliseconds patience{3000};  ///< from a connection to the whole of its request
+  std::chrono::milliseconds tick{50};        ///< how often the map is looked at
+  MapSaver save_map;    ///< for who asks for the map as a file; empty: nobody can
+  TellOperator tell{};  ///< who was turned away and why, now and then; may be empty
 };
 
 /// A saved map, to be shown as it is.
