@@ -16,7 +16,9 @@ namespace swiftlet::station {
 namespace {
 
 using namespace std::chrono_literals;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class Crowd : public ServedFlight {
@@ -126,6 +128,19 @@ TEST_F(Crowd, who_calls_the_machine_by_a_name_gets_in_with_the_token_or_is_told_
   EXPECT_THAT(said, StartsWith("HTTP/1.1 403"));
   EXPECT_THAT(said, HasSubstr("--origin http://drone.local:18472"));
   EXPECT_THAT(told(), HasSubstr("turned away 127.0.0.1: the host name drone.local:18472"));
+}
+
+TEST_F(Crowd, a_station_that_listens_everywhere_tells_addresses_that_can_be_opened) {
+  StationOptions options;
+  options.listen = {"0.0.0.0", 0};
+  options.access.token = "s3cret-token";
+  const auto station = Station::start(options, flight_.feed);
+  ASSERT_TRUE(station) << station.error().text();
+  ASSERT_FALSE((*station)->urls().empty());
+  for (const std::string& url : (*station)->urls()) {
+    EXPECT_THAT(url, Not(AnyOf(HasSubstr("//0.0.0.0"), HasSubstr("[::]"))));
+    EXPECT_THAT(url, HasSubstr("?token=s3cret-token"));
+  }
 }
 
 }  // namespace

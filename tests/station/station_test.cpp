@@ -175,7 +175,7 @@ TEST_F(RunningStation, says_where_it_cannot_listen) {
   const auto second = Station::start(options, feed);
   ASSERT_FALSE(second);
   EXPECT_THAT(second.error().text(), HasSubstr("cannot listen there"));
-  EXPECT_THAT(station_->url(), StartsWith("http://127.0.0.1:"));
+  EXPECT_THAT(station_->urls().front(), StartsWith("http://127.0.0.1:"));
 }
 
 }  // namespace

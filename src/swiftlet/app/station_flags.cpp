@@ -53,7 +53,10 @@ Expected<station::StationOptions> station_options(const StationFlags& flags) {
 }
 
 void tell_address(const station::Station& station) {
-  tell_line(station.url());
+  for (const std::string& url : station.urls()) tell_line(url);
+  if (!station.address().is_loopback()) {
+    tell_line("other machines can reach it; it shows the map to whoever has the token");
+  }
 }
 
 void wait_for(const InterruptGuard& interrupt) {

@@ -5,6 +5,7 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
 
 #include "swiftlet/base/number_text.hpp"
 
@@ -18,6 +19,12 @@ bool is_numeric(const std::string& host) {
 }
 
 }  // namespace
+
+bool ListenAddress::is_everywhere() const {
+  in6_addr address{};
+  if (inet_pton(AF_INET6, host.c_str(), &address) == 1) return IN6_IS_ADDR_UNSPECIFIED(&address);
+  return host == "0.0.0.0";
+}
 
 bool ListenAddress::is_loopback() const { return host.starts_with("127.") || host == "::1"; }
 

@@ -16,6 +16,8 @@ struct ListenAddress {
   std::string host = "127.0.0.1";
   std::uint16_t port = 8080;  ///< 0: the system chooses
 
+  /// "0.0.0.0" or "::", which are no addresses to open but stand for all of the machine's.
+  [[nodiscard]] bool is_everywhere() const;
   /// Only this machine can reach it.
   [[nodiscard]] bool is_loopback() const;
   /// "127.0.0.1:8080", "[::1]:8080"

@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "swiftlet/station/reachable.hpp"
 #include "swiftlet/station/server_private.hpp"
 
 namespace swiftlet::station {
@@ -48,9 +49,13 @@ Expected<std::unique_ptr<Station>> Station::start(const StationOptions& options,
   return start_checked(options, MapWatch(std::move(saved.facts), std::move(saved.map)));
 }
 
-std::string Station::url() const {
+std::vector<std::string> Station::urls() const {
   const std::string query = token_.empty() ? "" : fmt::format("?token={}", token_);
-  return fmt::format("http://{}/{}", address().text(), query);
+  std::vector<std::string> urls;
+  for (const ListenAddress& place : reachable_at(address(), own_addresses())) {
+    urls.push_back(fmt::format("http://{}/{}", place.text(), query));
+  }
+  return urls;
 }
 
 void run_with_low_priority() {

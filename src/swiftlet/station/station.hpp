@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/station/access.hpp"
@@ -59,8 +60,9 @@ class Station {
 
   /// Where it listens, with the port that was chosen.
   [[nodiscard]] virtual const ListenAddress& address() const = 0;
-  /// For people, with the token: "http://127.0.0.1:8080/?token=...".
-  [[nodiscard]] std::string url() const;
+  /// For people, with the token: "http://127.0.0.1:8080/?token=...". Where it listens everywhere,
+  /// each address of the machine that others can open, its name last. Never empty.
+  [[nodiscard]] std::vector<std::string> urls() const;
 
  protected:
   explicit Station(std::string token) : token_(std::move(token)) {}
