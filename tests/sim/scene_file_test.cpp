@@ -197,6 +197,9 @@ TEST(SceneFile, refuses_what_a_few_bytes_make_endless) {
     pillars += "  - { from_m: [0, 0, 0], to_m: [0, 0, 9], diameter_m: 99 }\n";
   EXPECT_THAT(complaint(pillars), AllOf(HasSubstr("s.yaml:"), HasSubstr("triangles")));
 
+  EXPECT_THAT(complaint(flight + "cylinders: [ { from_m: [0, 0, 0], to_m: [0, 0, 9], "
+                                 "diameter_m: -0.003 } ]\n"),
+              HasSubstr("s.yaml:2"));
   EXPECT_THAT(complaint("boxes: [ { from_m: [3, -2, 0], to_m: [3.2, 2, 1e20] } ]\n" + flight),
               AllOf(HasSubstr("s.yaml:1"), HasSubstr("1000000")));
   EXPECT_THAT(complaint("planes: [ { centre_m: [3, 0, 0], normal: [1, 0, 0] } ]\n"

@@ -15,10 +15,12 @@ namespace swiftlet::sim {
 namespace {
 
 std::uint32_t sides_of(const Cylinder& cylinder) {
+  constexpr std::uint32_t kLeast = 16;
   const double radius_m = 0.5 * cylinder.diameter_m;
+  if (!(radius_m > 0.0)) return kLeast;  // a fault of the scene that is told elsewhere
   const double half_angle = std::acos(std::max(0.0, 1.0 - kMaxSagitta_m / radius_m));
   return static_cast<std::uint32_t>(
-      std::clamp(std::ceil(std::numbers::pi / half_angle), 16.0, 512.0));
+      std::clamp(std::ceil(std::numbers::pi / half_angle), double{kLeast}, 512.0));
 }
 
 /// Adds the vertices and triangles of one object, numbered from 0, to a mesh that has others.
