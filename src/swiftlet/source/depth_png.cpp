@@ -25,7 +25,7 @@ namespace swiftlet {
 namespace {
 
 constexpr std::uint16_t kFullScale = std::numeric_limits<std::uint16_t>::max();
-constexpr png_uint_32 kMaxSide = 16384;                    // that of PinholeIntrinsics
+constexpr png_uint_32 kMostSide_px = 16384;                // that of PinholeIntrinsics
 constexpr std::size_t kMostPixels = std::size_t{1} << 25;  // 8192 x 4096
 constexpr std::size_t kDeflateMax = 1032;  // no byte of a deflate stream yields more
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1A\n";
@@ -51,7 +51,7 @@ class PngDecoder {
     if (png_ == nullptr) return;
     info_ = png_create_info_struct(png_);
     png_set_read_fn(png_, this, on_read);
-    png_set_user_limits(png_, kMaxSide, kMaxSide);
+    png_set_user_limits(png_, kMostSide_px, kMostSide_px);
     png_set_chunk_cache_max(png_, 64);
     png_set_chunk_malloc_max(png_, std::size_t{1} << 20);
     // Everything but header, pixels and end is passed over: a text may inflate to gigabytes.
@@ -149,7 +149,8 @@ Status check_budget(std::string_view file, const std::string& where) {
   // libpng would find a header behind other chunks, too, and say too late what it declares.
   if (!size && file.starts_with(kSignature))
     return damaged(where, "it does not begin with a header");
-  if (!size || size->first > kMaxSide || size->second > kMaxSide) return Done{};  // libpng tells
+  if (!size || size->first > kMostSide_px || size->second > kMostSide_px)
+    return Done{};  // libpng tells
   const std::size_t pixels = size->first * size->second;
   if (2 * pixels / kDeflateMax > file.size()) return damaged(where, "too short for its size");
   if (pixels > kMostPixels) {
