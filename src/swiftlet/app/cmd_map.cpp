@@ -45,7 +45,7 @@ struct MapOptions {
 };
 
 /// Told before the flight and not after it.
-Status check_output(const MapOptions& options) {
+Status check_name_is_free(const MapOptions& options) {
   auto recovered = recover_cut_flights(options.out);
   if (!recovered) return forward_error(std::move(recovered));
   for (const std::string& note : *recovered)
@@ -173,7 +173,7 @@ Faults map(const MapOptions& options) {
   auto source = open_source(options.rig.added_to(options.source));
   if (!source) return fault_of(std::move(source));
   // Last, since it is the one that changes files.
-  if (auto free = check_output(options); !free) return fault_of(std::move(free));
+  if (auto free = check_name_is_free(options); !free) return fault_of(std::move(free));
   if (options.in_real_time) source = play_in_real_time(std::move(*source));
   const SourceInfo info = (*source)->info();
   adopt_baseline(info.baseline_m, *config);
