@@ -100,14 +100,15 @@ TEST_F(BatchOrder, what_the_file_holds_already_is_not_written_again) {
 TEST_F(BatchOrder, a_batch_that_fails_changes_nothing_and_can_be_tried_again) {
   const BlockBuffer first = evicted(10, 1);
   write(nullptr, &first);
-  auto other = MapFile::open_to_write(path_, 0);
+  // Another program, which does not know our lock: ours finds the file in use.
+  auto other = sqlite::Database::open(path_, sqlite::Database::Mode::kReadWrite);
   ASSERT_TRUE(other.has_value());
-  ASSERT_TRUE(other->begin());  // another writer: ours finds the file in use
+  ASSERT_TRUE(other->run("BEGIN IMMEDIATE"));
   const BlockBuffer second = evicted(20, 2);
   const auto failed = writer_->write({nullptr, &second, nullptr});
   ASSERT_FALSE(failed.has_value());
   EXPECT_EQ(failed.error().code, ErrorCode::kIo);
-  other->rollback();
+  ASSERT_TRUE(other->run("ROLLBACK"));
   expect_in_file(10);
   EXPECT_EQ(write(nullptr, &second), 1U);
   expect_in_file(20);

@@ -17,8 +17,8 @@ constexpr std::int64_t kOldestAtOnce = 64;
 }  // namespace
 
 Expected<BatchWriter> BatchWriter::open(const std::filesystem::path& path, StorePolicy policy,
-                                        std::uint64_t max_bytes) {
-  auto file = MapFile::open_to_write(path, max_bytes);
+                                        std::uint64_t max_bytes, MapLock lock) {
+  auto file = MapFile::open_to_write(path, max_bytes, std::move(lock));
   if (!file) return forward_error(std::move(file));
   auto meta = file->meta();
   if (!meta) return forward_error(std::move(meta));

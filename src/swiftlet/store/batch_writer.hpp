@@ -53,9 +53,11 @@ class BatchWriter {
     std::uint64_t dropped_by_cap = 0;
   };
 
-  /// Opens a map of no blocks, see MapFile::create(). `max_bytes`: see make_room(); 0 = no cap.
+  /// Opens a map of no blocks, see MapFile::create(), which gave the `lock`. `max_bytes`: see
+  /// make_room(); 0 = no cap.
   [[nodiscard]] static Expected<BatchWriter> open(const std::filesystem::path& path,
-                                                  StorePolicy policy, std::uint64_t max_bytes);
+                                                  StorePolicy policy, std::uint64_t max_bytes,
+                                                  MapLock lock = {});
 
   /// After an error nothing has changed, neither here nor in the file; try again later.
   [[nodiscard]] Expected<Report> write(const Content& content);

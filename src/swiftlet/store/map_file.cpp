@@ -79,9 +79,16 @@ Expected<MapFile> MapFile::open_to_read(const fs::path& path) {
   return file;
 }
 
-Expected<MapFile> MapFile::open_to_write(const fs::path& path, std::uint64_t max_bytes) {
+Expected<MapFile> MapFile::open_to_write(const fs::path& path, std::uint64_t max_bytes,
+                                         MapLock lock) {
   MapFile file;
   file.path_ = path;
+  file.lock_ = std::move(lock);
+  if (!file.lock_.is_held()) {
+    auto taken = MapLock::take(path);
+    if (!taken) return forward_error(std::move(taken));
+    file.lock_ = std::move(*taken);
+  }
   auto database = Database::open(path, Database::Mode::kReadWrite);
   if (!database) return forward_error(std::move(database));
   file.database_ = std::move(*database);
@@ -251,6 +258,7 @@ void MapFile::close() {
     *statement = Statement{};
   }
   database_.close();
+  lock_.release();
 }
 
 Status MapFile::finish() {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "swiftlet/base/voxel_index.hpp"
 #include "swiftlet/map/voxel_block.hpp"
 #include "swiftlet/store/block_codec.hpp"
+#include "swiftlet/store/map_lock.hpp"
 #include "swiftlet/store/sqlite.hpp"
 
 namespace swiftlet {
@@ -57,21 +59,31 @@ class MapFile {
   static constexpr std::int64_t kSchemaVersion = 1;           ///< readers refuse newer ones by name
   static constexpr std::int64_t kPageBytes = 4096;
 
-  /// Makes a map of no blocks, complete with its description before it takes the name `path`.
-  /// Errors: kUsage if `path` exists and `overwrite` is not set; kIo.
-  [[nodiscard]] static Status create(const std::filesystem::path& path, bool overwrite,
-                                     const MapMeta& meta = {});
-  /// Removes a map that nobody has open, and its logs.
+  /// Makes a map of no blocks, complete with its description before it takes the name `path`, and
+  /// holds its lock for open_to_write(), so that it has its writer before it has its name.
+  /// Errors: kUsage if `path` exists and `overwrite` is not set, if it is being written, or if logs
+  /// of another database lie beside it; kIo.
+  [[nodiscard]] static Expected<MapLock> create(const std::filesystem::path& path, bool overwrite,
+                                                const MapMeta& meta = {});
+  /// Who writes the map at this moment; nobody if there is no such file. Its writer is the one
+  /// that made it or opened it to write, until finish() or the end of the process.
+  [[nodiscard]] static std::optional<MapWriter> writer_of(const std::filesystem::path& path) {
+    return MapLock::holder(path);
+  }
+  /// Removes a map and its logs; does nothing while another process writes it.
   static void remove(const std::filesystem::path& path);
-  /// Renames a map that nobody has open, and its logs. Errors: kIo.
+  /// Renames a map and its logs; a writer that was killed left some, and they are folded in first.
+  /// Errors: kUsage while somebody writes it; kIo.
   [[nodiscard]] static Status rename(const std::filesystem::path& from,
                                      const std::filesystem::path& to);
   /// Errors: kNotFound, kCorruptInput if it is no Swiftlet map or damaged, kUnsupported if it is of
   /// a newer version, kIo.
   [[nodiscard]] static Expected<MapFile> open_to_read(const std::filesystem::path& path);
   /// Opens the write-ahead log as well. `max_bytes`: hard limit of the file's size, 0 = none.
+  /// `lock`: what create() has returned; without, it is taken. Errors: kUsage while another
+  /// process writes the map; those of open_to_read().
   [[nodiscard]] static Expected<MapFile> open_to_write(const std::filesystem::path& path,
-                                                       std::uint64_t max_bytes);
+                                                       std::uint64_t max_bytes, MapLock lock = {});
 
   // Reading.
   /// From now on all reads see one state of the map, whatever a writer commits meanwhile.
@@ -110,6 +122,7 @@ class MapFile {
   [[nodiscard]] Status prepare_writing();
 
   std::filesystem::path path_;
+  MapLock lock_;  // before the database: it must go last
   sqlite::Database database_;
   // Statements after the database: they must go first.
   sqlite::Statement read_, all_, put_, erase_, put_meta_, put_seal_, oldest_, page_count_,

@@ -11,8 +11,9 @@ namespace swiftlet {
 namespace {
 
 Status fill(const std::filesystem::path& path,
-            std::span<const std::pair<BlockIndex, VoxelBlock>> blocks, std::int64_t frames) {
-  auto file = MapFile::open_to_write(path, 0);
+            std::span<const std::pair<BlockIndex, VoxelBlock>> blocks, std::int64_t frames,
+            MapLock lock) {
+  auto file = MapFile::open_to_write(path, 0, std::move(lock));
   if (!file) return forward_error(std::move(file));
   auto seal = file->seal();
   if (!seal) return forward_error(std::move(seal));
@@ -36,8 +37,10 @@ Status save_blocks(const std::filesystem::path& path,
                    std::span<const std::pair<BlockIndex, VoxelBlock>> blocks, const MapMeta& meta) {
   SWIFTLET_REQUIRE(meta.contains("voxel_m") && meta.contains("frames"),
                    "a map tells its cell size and its frames");
-  if (auto made = MapFile::create(path, false, meta); !made) return made;
-  Status written = fill(path, blocks, number_from<std::int64_t>(meta.at("frames")).value_or(0));
+  auto lock = MapFile::create(path, false, meta);
+  if (!lock) return forward_error(std::move(lock));
+  const auto frames = number_from<std::int64_t>(meta.at("frames")).value_or(0);
+  Status written = fill(path, blocks, frames, std::move(*lock));
   if (!written) MapFile::remove(path);
   return written;
 }

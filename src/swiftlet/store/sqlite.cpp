@@ -110,12 +110,13 @@ std::span<const std::uint8_t> Statement::bytes(int column) const {
   return {static_cast<const std::uint8_t*>(data), static_cast<std::size_t>(size)};
 }
 
-Expected<Database> Database::open(const std::filesystem::path& path, Mode mode) {
+Expected<Database> Database::open(const std::filesystem::path& path, Mode mode,
+                                  const std::string& where) {
   int flags = SQLITE_OPEN_READONLY;
   if (mode == Mode::kReadWrite) flags = SQLITE_OPEN_READWRITE;
   if (mode == Mode::kCreate) flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   Database database;
-  database.where_ = path.string();
+  database.where_ = where.empty() ? path.string() : where;
   sqlite3* connection = nullptr;
   const int code = sqlite3_open_v2(path.c_str(), &connection, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   database.connection_.reset(connection);
@@ -161,6 +162,14 @@ Expected<std::string> Database::text(std::string_view sql) const {
   if (!row) return forward_error(std::move(row));
   if (!*row) return fail(ErrorCode::kCorruptInput, where_, "the map file is incomplete");
   return std::string(statement->text(0));
+}
+
+Expected<std::vector<unsigned char>> Database::image() const {
+  sqlite3_int64 size = 0;
+  const std::unique_ptr<unsigned char, decltype(&sqlite3_free)> bytes(
+      sqlite3_serialize(connection_.get(), "main", &size, 0), &sqlite3_free);
+  if (!bytes) return fail(ErrorCode::kOutOfMemory, where_, "the memory does not suffice");
+  return std::vector<unsigned char>(bytes.get(), bytes.get() + size);
 }
 
 }  // namespace swiftlet::sqlite

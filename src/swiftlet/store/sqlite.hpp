@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "swiftlet/base/expected.hpp"
 
@@ -57,13 +58,17 @@ class Database {
   Database() = default;
 
   /// Errors: kIo, kCorruptInput with the path and the reason of the operating system.
-  [[nodiscard]] static Expected<Database> open(const std::filesystem::path& path, Mode mode);
+  /// `where`: what errors call the file, if not by its path.
+  [[nodiscard]] static Expected<Database> open(const std::filesystem::path& path, Mode mode,
+                                               const std::string& where = {});
 
   [[nodiscard]] Status run(const std::string& sql);
   [[nodiscard]] Expected<Statement> prepare(std::string_view sql) const;
   /// The first column of the first row. Errors: kCorruptInput if there is no row.
   [[nodiscard]] Expected<std::int64_t> integer(std::string_view sql) const;
   [[nodiscard]] Expected<std::string> text(std::string_view sql) const;
+  /// The bytes of a database in memory, as a file holds them. Errors: kOutOfMemory.
+  [[nodiscard]] Expected<std::vector<unsigned char>> image() const;
 
   [[nodiscard]] bool is_open() const { return connection_ != nullptr; }
   void close() { connection_.reset(); }

@@ -39,18 +39,17 @@ Expected<std::unique_ptr<TileStore>> TileStore::create(const std::filesystem::pa
   // With its description from the start: a map whose writer is killed before a frame is valid.
   meta["voxel_m"] = fmt::format("{}", voxel_m);
   meta["frames"] = "0";
-  if (auto made = MapFile::create(path, options.overwrite, meta); !made) {
-    return forward_error(std::move(made));
-  }
-  auto store = open(path, options, std::move(meta));
+  auto lock = MapFile::create(path, options.overwrite, meta);
+  if (!lock) return forward_error(std::move(lock));
+  auto store = open(path, options, std::move(meta), std::move(*lock));
   if (!store) MapFile::remove(path);
   return store;
 }
 
 Expected<std::unique_ptr<TileStore>> TileStore::open(const std::filesystem::path& path,
-                                                     const TileStoreOptions& options,
-                                                     MapMeta meta) {
-  auto writer = BatchWriter::open(path, options.policy, options.max_bytes);
+                                                     const TileStoreOptions& options, MapMeta meta,
+                                                     MapLock lock) {
+  auto writer = BatchWriter::open(path, options.policy, options.max_bytes, std::move(lock));
   if (!writer) return forward_error(std::move(writer));
   // Proves, before the flight, that the disk takes what is written.
   if (auto written = writer->write({nullptr, nullptr, &meta}); !written) {

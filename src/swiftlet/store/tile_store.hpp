@@ -61,7 +61,9 @@ struct TileStoreStats {
 class TileStore final : public BlockArchive {
  public:
   /// Makes the file `path` and starts the writer. `meta` describes the map: config, source, ...
-  /// Errors: kUsage if the file exists and may not be overwritten, kInvalidConfig, kIo.
+  /// Until close() this process is its writer (MapFile::writer_of()).
+  /// Errors: kUsage if the file exists and may not be overwritten or is being written,
+  /// kInvalidConfig, kIo.
   [[nodiscard]] static Expected<std::unique_ptr<TileStore>> create(
       const std::filesystem::path& path, double voxel_m, const TileStoreOptions& options = {},
       MapMeta meta = {});
@@ -87,7 +89,7 @@ class TileStore final : public BlockArchive {
   /// Opens the map of no blocks that create() has made.
   [[nodiscard]] static Expected<std::unique_ptr<TileStore>> open(const std::filesystem::path& path,
                                                                  const TileStoreOptions& options,
-                                                                 MapMeta meta);
+                                                                 MapMeta meta, MapLock lock);
   TileStore(const TileStoreOptions& options, BatchWriter writer, MapFile reading, MapMeta meta);
   void run();
   void write_batch();
