@@ -14,13 +14,7 @@
 namespace swiftlet {
 namespace {
 
-namespace fs = std::filesystem;
-using sqlite::Database;
 using sqlite::Statement;
-
-// Made only for maps with a byte cap, which need to find the oldest blocks.
-constexpr const char* kAgeIndex =
-    "CREATE INDEX IF NOT EXISTS blocks_by_age ON blocks(touched, z, y, x)";
 
 std::int64_t as_signed(std::uint64_t v) { return std::bit_cast<std::int64_t>(v); }
 std::uint64_t as_unsigned(std::int64_t v) { return std::bit_cast<std::uint64_t>(v); }
@@ -59,92 +53,6 @@ Status decode_row(const BlockRow& row, BlockCodec& codec, VoxelBlock& out) {
   return fail(
       ErrorCode::kCorruptInput, "map",
       fmt::format("the stored block {} {} {} is damaged", row.index.x, row.index.y, row.index.z));
-}
-
-Expected<MapFile> MapFile::open_to_read(const fs::path& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) {
-    return fail(ErrorCode::kNotFound, path.string(), "there is no such map");
-  }
-  if (!fs::is_regular_file(path, error)) {
-    return fail(ErrorCode::kCorruptInput, path.string(), "this is not a file");
-  }
-  MapFile file;
-  file.path_ = path;
-  auto database = Database::open(path, Database::Mode::kReadOnly);
-  if (!database) return forward_error(std::move(database));
-  file.database_ = std::move(*database);
-  if (auto mine = file.check_identity(); !mine) return forward_error(std::move(mine));
-  if (auto ready = file.prepare_reading(); !ready) return forward_error(std::move(ready));
-  return file;
-}
-
-Expected<MapFile> MapFile::open_to_write(const fs::path& path, std::uint64_t max_bytes,
-                                         MapLock lock) {
-  MapFile file;
-  file.path_ = path;
-  file.lock_ = std::move(lock);
-  if (!file.lock_.is_held()) {
-    auto taken = MapLock::take(path);
-    if (!taken) return forward_error(std::move(taken));
-    file.lock_ = std::move(*taken);
-  }
-  auto database = Database::open(path, Database::Mode::kReadWrite);
-  if (!database) return forward_error(std::move(database));
-  file.database_ = std::move(*database);
-  if (auto mine = file.check_identity(); !mine) return forward_error(std::move(mine));
-  auto mode = file.database_.text("PRAGMA journal_mode = WAL");
-  if (!mode) return forward_error(std::move(mode));
-  if (*mode != "wal") {
-    return fail(ErrorCode::kIo, path.string(), "this file system cannot hold a write-ahead log",
-                "write the map to a local disk");
-  }
-  // FULL: a drone loses its power when it crashes, which is when its map is wanted.
-  std::string settings = "PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 8388608;";
-  if (max_bytes > 0) {
-    settings += fmt::format("PRAGMA max_page_count = {}; {};",
-                            max_bytes / static_cast<std::uint64_t>(kPageBytes), kAgeIndex);
-  }
-  if (auto set = file.database_.run(settings); !set) return forward_error(std::move(set));
-  if (auto ready = file.prepare_reading(); !ready) return forward_error(std::move(ready));
-  if (auto ready = file.prepare_writing(); !ready) return forward_error(std::move(ready));
-  return file;
-}
-
-namespace {
-
-Status prepare_each(const Database& database,
-                    std::initializer_list<std::pair<Statement*, const char*>> statements) {
-  for (const auto& [statement, sql] : statements) {
-    auto prepared = database.prepare(sql);
-    if (!prepared) return forward_error(std::move(prepared));
-    *statement = std::move(*prepared);
-  }
-  return Done{};
-}
-
-}  // namespace
-
-Status MapFile::prepare_reading() {
-  return prepare_each(
-      database_,
-      {{&read_,
-        "SELECT z, y, x, touched, checksum, data FROM blocks WHERE z = ?1 AND y = ?2 AND x = ?3"},
-       {&all_, "SELECT z, y, x, touched, checksum, data FROM blocks ORDER BY z, y, x"}});
-}
-
-Status MapFile::prepare_writing() {
-  return prepare_each(
-      database_,
-      {{&put_, "INSERT OR REPLACE INTO blocks VALUES(?1, ?2, ?3, ?4, ?5, ?6)"},
-       {&erase_, "DELETE FROM blocks WHERE z = ?1 AND y = ?2 AND x = ?3"},
-       {&put_meta_, "INSERT OR REPLACE INTO meta VALUES(?1, ?2)"},
-       {&put_seal_,
-        "UPDATE seal SET blocks = ?1, block_digest = ?2, meta_digest = ?3 WHERE id = 0"},
-       {&oldest_,
-        "SELECT z, y, x, touched, 0, NULL FROM blocks ORDER BY touched, z, y, x LIMIT ?1"},
-       {&page_count_, "PRAGMA page_count"},
-       {&free_pages_, "PRAGMA freelist_count"}});
 }
 
 Expected<MapMeta> MapFile::meta() {
@@ -250,23 +158,6 @@ Expected<std::int64_t> MapFile::pages_in_use() {
   const std::int64_t free_pages = free_pages_.integer(0);
   free_pages_.reset();
   return pages - free_pages;
-}
-
-void MapFile::close() {
-  for (Statement* statement : {&read_, &all_, &put_, &erase_, &put_meta_, &put_seal_, &oldest_,
-                               &page_count_, &free_pages_}) {
-    *statement = Statement{};
-  }
-  database_.close();
-  lock_.release();
-}
-
-Status MapFile::finish() {
-  auto mode = database_.text("PRAGMA journal_mode = DELETE");
-  close();
-  if (!mode) return forward_error(std::move(mode));
-  if (*mode == "delete") return Done{};
-  return fail(ErrorCode::kIo, path_.string(), "the write-ahead log cannot be folded into the map");
 }
 
 }  // namespace swiftlet

@@ -76,6 +76,8 @@ class MapFile {
   /// Errors: kUsage while somebody writes it; kIo.
   [[nodiscard]] static Status rename(const std::filesystem::path& from,
                                      const std::filesystem::path& to);
+  /// Changes nothing: what a killed writer has left is put right in a private copy if it cannot be
+  /// read as it is, and so is a map in a folder that is read-only.
   /// Errors: kNotFound, kCorruptInput if it is no Swiftlet map or damaged, kUnsupported if it is of
   /// a newer version, kIo.
   [[nodiscard]] static Expected<MapFile> open_to_read(const std::filesystem::path& path);
@@ -117,6 +119,8 @@ class MapFile {
   [[nodiscard]] Status finish();
 
  private:
+  [[nodiscard]] static Expected<MapFile> with(const std::filesystem::path& path,
+                                              Expected<sqlite::Database> database);
   [[nodiscard]] Status check_identity() const;
   [[nodiscard]] Status prepare_reading();
   [[nodiscard]] Status prepare_writing();

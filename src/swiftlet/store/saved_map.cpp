@@ -50,9 +50,13 @@ Expected<SavedMap> load_map(const std::filesystem::path& path) {
   auto file = MapFile::open_to_read(path);
   if (!file) return forward_error(std::move(file));
   if (auto held = file->hold_view(); !held) return forward_error(std::move(held));
-  auto meta = file->meta();
+  return SavedMap::of(path, std::move(*file));
+}
+
+Expected<SavedMap> SavedMap::of(const std::filesystem::path& path, MapFile file) {
+  auto meta = file.meta();
   if (!meta) return forward_error(std::move(meta));
-  auto seal = file->seal();
+  auto seal = file.seal();
   if (!seal) return forward_error(std::move(seal));
   const auto voxel_m = number_of<double>(*meta, "voxel_m");
   const auto frames = number_of<std::uint64_t>(*meta, "frames");
@@ -67,7 +71,7 @@ Expected<SavedMap> load_map(const std::filesystem::path& path) {
   map.frames_ = *frames;
   map.block_count_ = static_cast<std::uint64_t>(seal->blocks);
   map.meta_ = std::move(*meta);
-  map.file_ = std::make_unique<MapFile>(std::move(*file));
+  map.file_ = std::make_unique<MapFile>(std::move(file));
   return map;
 }
 
@@ -134,7 +138,6 @@ std::vector<Error> check_map(const std::filesystem::path& path) {
   } else {
     for (const std::string& complaint : *complaints) add("SQLite: " + complaint);
   }
-  if (auto map = load_map(path); !map) faults.push_back(std::move(map).error());
 
   BlockCodec codec;
   VoxelBlock block;
@@ -151,6 +154,9 @@ std::vector<Error> check_map(const std::filesystem::path& path) {
     faults.push_back(std::move(sealed).error());
   } else if (auto same = compare_seals(found, *sealed, path.string()); !same) {
     faults.push_back(std::move(same).error());
+  }
+  if (auto map = SavedMap::of(path, std::move(*file)); !map) {
+    faults.push_back(std::move(map).error());
   }
   return faults;
 }

@@ -42,7 +42,9 @@ class SavedMap {
 
  private:
   friend Expected<SavedMap> load_map(const std::filesystem::path& path);
+  friend std::vector<Error> check_map(const std::filesystem::path& path);
   SavedMap() = default;
+  [[nodiscard]] static Expected<SavedMap> of(const std::filesystem::path& path, MapFile file);
 
   std::filesystem::path path_;
   double voxel_m_ = 0.0;

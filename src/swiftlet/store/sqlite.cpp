@@ -3,6 +3,7 @@
 
 #include "swiftlet/store/sqlite.hpp"
 
+#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include <cstring>
@@ -22,6 +23,18 @@ std::string system_reason(sqlite3* connection) {
                      : std::string(" (") + std::generic_category().message(number) + ")";
 }
 
+std::string immutable_uri(const std::filesystem::path& path) {
+  std::error_code none;
+  const std::filesystem::path whole = std::filesystem::absolute(path, none);
+  std::string uri = "file://";
+  for (const char c : whole.string()) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') || c == '/' || c == '.' || c == '-' || c == '_';
+    uri += is_plain ? std::string(1, c) : fmt::format("%{:02x}", static_cast<unsigned char>(c));
+  }
+  return uri + "?immutable=1";
+}
+
 tl::unexpected<Error> failure(sqlite3* connection, int code, const std::string& where) {
   const std::string reason = system_reason(connection);
   switch (code & 0xff) {
@@ -34,6 +47,9 @@ tl::unexpected<Error> failure(sqlite3* connection, int code, const std::string& 
     case SQLITE_READONLY:
     case SQLITE_PERM:
       return fail(ErrorCode::kIo, where, "the map may not be written" + reason,
+                  "check the permissions of the file and of its folder");
+    case SQLITE_PROTOCOL:  // the index of a log that may only be read, and whose writer is gone
+      return fail(ErrorCode::kIo, where, "the map cannot be locked to be read" + reason,
                   "check the permissions of the file and of its folder");
     case SQLITE_IOERR:
       return fail(ErrorCode::kIo, where, "the disk refused to read or write the map" + reason,
@@ -117,8 +133,13 @@ Expected<Database> Database::open(const std::filesystem::path& path, Mode mode,
   if (mode == Mode::kCreate) flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   Database database;
   database.where_ = where.empty() ? path.string() : where;
+  std::string name = path.string();
+  if (mode == Mode::kImmutable) {
+    flags |= SQLITE_OPEN_URI;
+    name = immutable_uri(path);
+  }
   sqlite3* connection = nullptr;
-  const int code = sqlite3_open_v2(path.c_str(), &connection, flags | SQLITE_OPEN_NOMUTEX, nullptr);
+  const int code = sqlite3_open_v2(name.c_str(), &connection, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   database.connection_.reset(connection);
   if (code != SQLITE_OK) return failure(connection, code, database.where_);
   sqlite3_busy_timeout(connection, kBusyTimeout_ms);

@@ -53,7 +53,12 @@ class Statement {
 /// A connection to a database file. Thread safety: one thread at a time.
 class Database {
  public:
-  enum class Mode { kCreate, kReadWrite, kReadOnly };
+  enum class Mode {
+    kCreate,
+    kReadWrite,
+    kReadOnly,
+    kImmutable,  ///< reads what nobody can change meanwhile; takes no lock and looks at no log
+  };
 
   Database() = default;
 
