@@ -14,6 +14,10 @@ namespace {
 constexpr std::int64_t kReservePages = 12;
 constexpr std::int64_t kOldestAtOnce = 64;
 
+bool is_wanted(const BatchWriter::Content& content, std::size_t number) {
+  return !content.part || (number >= content.part->first && number < content.part->last);
+}
+
 }  // namespace
 
 Expected<BatchWriter> BatchWriter::open(const std::filesystem::path& path, StorePolicy policy,
@@ -33,6 +37,15 @@ Expected<BatchWriter> BatchWriter::open(const std::filesystem::path& path, Store
 bool BatchWriter::holds(const BlockIndex& index) const {
   const auto known = known_.find(index);
   return known != known_.end() && known->second.is_stored;
+}
+
+std::size_t BatchWriter::unwritten(const MapSnapshot& window) const {
+  std::size_t count = 0;
+  window.for_each_known_block([&](const BlockIndex& index, const VoxelBlock&) {
+    const auto known = known_.find(index);
+    count += known == known_.end() || known->second.order < 2 * window.version(index) ? 1 : 0;
+  });
+  return count;
 }
 
 Expected<BatchWriter::Report> BatchWriter::write(const Content& content) {
@@ -58,12 +71,12 @@ Expected<BatchWriter::Report> BatchWriter::write(const Content& content) {
 
 Status BatchWriter::write_all(const Content& content, Report& report) {
   if (content.window != nullptr) {
-    if (auto done = write_window(*content.window, report); !done) return done;
+    if (auto done = write_window(content, report); !done) return done;
   }
   if (content.evicted != nullptr && policy_ == StorePolicy::kKeep) {
-    if (auto done = write_evicted(*content.evicted, report); !done) return done;
+    if (auto done = write_evicted(content, report); !done) return done;
   }
-  if (content.window != nullptr && policy_ == StorePolicy::kDrop) {
+  if (content.window != nullptr && !content.part && policy_ == StorePolicy::kDrop) {
     if (auto done = erase_outside(*content.window, report); !done) return done;
   }
   MapMeta meta = content.meta == nullptr ? MapMeta{} : *content.meta;
@@ -76,21 +89,27 @@ Status BatchWriter::write_all(const Content& content, Report& report) {
   return Done{};
 }
 
-Status BatchWriter::write_window(const MapSnapshot& window, Report& report) {
-  frames_ = std::max(frames_, window.frame_count());
+Status BatchWriter::write_window(const Content& content, Report& report) {
+  const MapSnapshot& window = *content.window;
+  if (!content.part) frames_ = std::max(frames_, window.frame_count());
   window_ = window.window();
   Status status = Done{};
+  std::size_t number = 0;
   window.for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
-    if (status) status = put(index, block, 2 * window.version(index) + 1, report);
+    if (!status || !is_wanted(content, number++)) return;
+    status = put(index, block, 2 * window.version(index) + 1, report);
   });
   return status;
 }
 
-Status BatchWriter::write_evicted(const BlockBuffer& evicted, Report& report) {
+Status BatchWriter::write_evicted(const Content& content, Report& report) {
   Status status = Done{};
-  evicted.for_each([&](const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) {
-    if (status) status = put(index, block, 2 * version, report);
-  });
+  std::size_t number = 0;
+  content.evicted->for_each(
+      [&](const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) {
+        if (!status || !is_wanted(content, number++)) return;
+        status = put(index, block, 2 * version, report);
+      });
   return status;
 }
 

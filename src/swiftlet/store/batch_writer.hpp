@@ -45,6 +45,13 @@ class BatchWriter {
     const MapSnapshot* window = nullptr;
     const BlockBuffer* evicted = nullptr;
     const MapMeta* meta = nullptr;
+    /// Only these of the window's and of the evicted blocks, counted as they come, for a disk that
+    /// has no room for all: then `frames` stays, as the file does not hold all of them.
+    struct Part {
+      std::size_t first;
+      std::size_t last;  ///< one behind
+    };
+    std::optional<Part> part{};
   };
   /// What a batch changed.
   struct Report {
@@ -63,6 +70,8 @@ class BatchWriter {
   [[nodiscard]] Expected<Report> write(const Content& content);
 
   [[nodiscard]] bool holds(const BlockIndex& index) const;
+  /// Blocks of the window whose newest state has not been written.
+  [[nodiscard]] std::size_t unwritten(const MapSnapshot& window) const;
   [[nodiscard]] std::int64_t blocks() const { return seal_.blocks; }
   /// Frames that the newest snapshot in the file had seen.
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
@@ -83,8 +92,8 @@ class BatchWriter {
     bool is_stored = false;  ///< false: dropped by the cap while in the window
   };
   [[nodiscard]] Status write_all(const Content& content, Report& report);
-  [[nodiscard]] Status write_window(const MapSnapshot& window, Report& report);
-  [[nodiscard]] Status write_evicted(const BlockBuffer& evicted, Report& report);
+  [[nodiscard]] Status write_window(const Content& content, Report& report);
+  [[nodiscard]] Status write_evicted(const Content& content, Report& report);
   [[nodiscard]] Status write_meta(const MapMeta& meta);
   [[nodiscard]] Status put(const BlockIndex& index, const VoxelBlock& block, std::uint64_t order,
                            Report& report);

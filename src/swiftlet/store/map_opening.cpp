@@ -147,9 +147,11 @@ void MapFile::close() {
 Status MapFile::finish() {
   auto mode = database_.text("PRAGMA journal_mode = DELETE");
   close();
-  if (!mode) return forward_error(std::move(mode));
-  if (*mode == "delete") return Done{};
-  return fail(ErrorCode::kIo, path_.string(), "the write-ahead log cannot be folded into the map");
+  if (mode && *mode == "delete") return Done{};
+  const std::string reason = mode ? "" : " (" + mode.error().what + ")";
+  return fail(ErrorCode::kIo, path_.string(),
+              "the write-ahead log cannot be folded into the map" + reason,
+              "nothing is lost: keep the file with -wal at its end beside the map");
 }
 
 }  // namespace swiftlet

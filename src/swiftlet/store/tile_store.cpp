@@ -65,6 +65,7 @@ TileStore::TileStore(const TileStoreOptions& options, BatchWriter writer, MapFil
                      MapMeta meta)
     : options_(options),
       writer_(std::move(writer)),
+      pause_(options.batch_interval),
       next_cache_(options.cache_blocks),
       reading_(std::move(reading)),
       filling_(options.pending_blocks),
@@ -163,24 +164,23 @@ Status TileStore::close(std::optional<MapSnapshot> last) {
   }
   thread_.join();
   if (!last && reader_) last = reader_->latest();
-  bool is_written = writing_.empty() || write_once(nullptr);
-  if (is_written) {
-    swap_pending();
-    is_written = write_once(last ? &*last : nullptr);
-  }
+  std::size_t left = writing_.empty() ? 0 : write_what_fits(nullptr);
+  swap_pending();
+  left += write_what_fits(last ? &*last : nullptr);
   last.reset();
   reader_.reset();
   reading_.close();
   Status finished = writer_.file().finish();
   const std::lock_guard lock(mutex_);
   is_closed_ = true;
-  if (!is_written) return tl::make_unexpected(*stats_.error);
-  if (stats_.lost > 0) {
-    return fail(ErrorCode::kIo, "map",
-                fmt::format("{} blocks could not be written and are lost", stats_.lost),
-                "check the disk and map again");
-  }
-  return finished;
+  stats_.lost += left;
+  if (stats_.lost == 0) return finished;
+  // The reason of an earlier refusal is gone by now if the disk has taken the rest.
+  const Error reason = stats_.error.value_or(Error{ErrorCode::kIo, "map", {}, {}});
+  return fail(ErrorCode::kIo, reason.where,
+              fmt::format("{} blocks could not be written and are lost{}{}", stats_.lost,
+                          reason.what.empty() ? "" : ": ", reason.what),
+              "free some space; the map holds the rest");
 }
 
 Status save_map(const std::filesystem::path& path, const MapSnapshot& map, bool overwrite,

@@ -36,12 +36,14 @@ struct TileStoreStats {
   std::uint64_t restored_from_pending = 0;
   std::uint64_t restored_from_cache = 0;
   std::uint64_t restored_from_disk = 0;
-  std::uint64_t stalls = 0;          ///< evictions that had to wait for the disk
-  std::uint64_t lost = 0;            ///< evicted, but the disk refused and the buffer was full
+  std::uint64_t stalls = 0;  ///< evictions that had to wait for the disk
+  /// Evicted while the disk refused and the buffer was full, or left when the store was closed.
+  std::uint64_t lost = 0;
   std::uint64_t restore_failed = 0;  ///< stored, but unreadable when the window came back
   std::uint64_t written = 0;         ///< block states written to the file
   std::uint64_t dropped_by_cap = 0;
   std::uint64_t batches = 0;           ///< committed
+  std::uint64_t refused_batches = 0;   ///< tried in vain; what they held is tried again
   std::uint64_t frames_committed = 0;  ///< the file holds everything up to this frame
   std::uint64_t blocks_stored = 0;
   std::uint64_t bytes = 0;  ///< of the map file, without pages free for reuse
@@ -57,7 +59,9 @@ struct TileStoreStats {
 /// Real time: evict() copies 512 bytes under a lock and does not allocate; restore() of a block
 /// never stored is a look-up. Two cases may take longer, both counted: a stall (the disk is slower
 /// than the flight) and a restore from disk (the window came back faster than it was read ahead).
-/// Failures of the disk never stop the mapping; they are in stats() and close() returns them.
+/// Failures of the disk never stop the mapping; they are in stats() and close() returns them. While
+/// the disk refuses, batches are tried less and less often, down to one in kLongestPause; what
+/// leaves the window waits in the buffer, and is lost and counted when that is full.
 class TileStore final : public BlockArchive {
  public:
   /// Makes the file `path` and starts the writer. `meta` describes the map: config, source, ...
@@ -80,9 +84,12 @@ class TileStore final : public BlockArchive {
 
   [[nodiscard]] TileStoreStats stats() const;
 
+  static constexpr std::chrono::milliseconds kLongestPause{4000};
+
   /// Writes all that is left and the last state of the window, and leaves one single file.
   /// Without `last` the newest snapshot that was published is used. Later calls change nothing.
-  /// Errors: kIo if anything could not be written; what the last good batch held is there.
+  /// Errors: kIo if anything could not be written: then all that the disk takes is there, and the
+  /// rest is counted as lost.
   Status close(std::optional<MapSnapshot> last = std::nullopt);
 
  private:
@@ -93,8 +100,13 @@ class TileStore final : public BlockArchive {
   TileStore(const TileStoreOptions& options, BatchWriter writer, MapFile reading, MapMeta meta);
   void run();
   void write_batch();
-  /// True if the batch was committed. REQUIRES: called by the writer thread, or after it ended.
+  /// True if the batch was committed, and nothing is pending in writing_ any more.
+  /// REQUIRES: called by the writer thread, or after it ended; as the two below.
   bool write_once(const MapSnapshot* window);
+  /// Writes writing_ and the window, in parts if there is no room for all. Returns what is left.
+  std::size_t write_what_fits(const MapSnapshot* window);
+  std::size_t write_in_parts(BatchWriter::Content content, std::size_t blocks);
+  void note_refusal(Error error);
   void account(const BatchWriter::Report& report, std::chrono::nanoseconds took);
   void swap_pending();
   void read_ahead(const BlockWindow& window);
@@ -105,6 +117,7 @@ class TileStore final : public BlockArchive {
   // The writer thread's own.
   BatchWriter writer_;
   BlockCodec read_ahead_codec_;
+  std::chrono::milliseconds pause_;  // from batch to batch
   BlockBuffer next_cache_;
 
   // The mapping thread's own.

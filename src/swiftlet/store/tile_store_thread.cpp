@@ -24,7 +24,7 @@ BlockWindow grown(const BlockWindow& w, int by) {
 }  // namespace
 
 void TileStore::run() {
-  auto next_batch = Clock::now() + options_.batch_interval;
+  auto next_batch = Clock::now() + pause_;
   std::unique_lock lock(mutex_);
   for (;;) {
     wake_.wait_until(lock, next_batch, [&] { return is_closing_ || drain_now_ || expected_; });
@@ -38,10 +38,12 @@ void TileStore::run() {
     if (!drain_now_ && Clock::now() < next_batch) continue;
     drain_now_ = false;
     // From the start of one batch to the start of the next, so that the interval holds on average.
-    next_batch = Clock::now() + options_.batch_interval;
+    const auto start = Clock::now();
     lock.unlock();
     write_batch();
     lock.lock();
+    pause_ = is_refused_ ? std::min(2 * pause_, kLongestPause) : options_.batch_interval;
+    next_batch = start + pause_;
   }
 }
 
@@ -73,15 +75,60 @@ bool TileStore::write_once(const MapSnapshot* window) {
     notes = notes_;
   }
   auto report = writer_.write({window, &writing_, &notes});
-  if (report) {
-    account(*report, Clock::now() - start);
-    return true;
+  if (!report) {
+    note_refusal(std::move(report).error());
+    return false;
   }
+  account(*report, Clock::now() - start);
   const std::lock_guard lock(mutex_);
-  stats_.error = std::move(report).error();
+  writing_.clear();
+  stats_.error.reset();
+  is_refused_ = false;
+  room_.notify_all();
+  return true;
+}
+
+void TileStore::note_refusal(Error error) {
+  const std::lock_guard lock(mutex_);
+  ++stats_.refused_batches;
+  stats_.error = std::move(error);
   is_refused_ = true;
   room_.notify_all();
-  return false;
+}
+
+std::size_t TileStore::write_what_fits(const MapSnapshot* window) {
+  if (write_once(window)) return 0;
+  // The evicted ones first: they are the map; the window is what the last frames saw again.
+  const std::size_t left = write_in_parts({nullptr, &writing_, nullptr}, writing_.size());
+  {
+    const std::lock_guard lock(mutex_);
+    writing_.clear();
+  }
+  if (window == nullptr) return left;
+  std::size_t known = 0;
+  window->for_each_known_block([&](const BlockIndex&, const VoxelBlock&) { ++known; });
+  write_in_parts({window, nullptr, nullptr}, known);
+  return left + writer_.unwritten(*window);
+}
+
+/// Half, a quarter, ... of what is left, until not even a few blocks find room.
+std::size_t TileStore::write_in_parts(BatchWriter::Content content, std::size_t blocks) {
+  constexpr std::size_t kSmallest = 16;
+  std::size_t done = 0;
+  for (std::size_t size = (blocks + 1) / 2; done < blocks;) {
+    content.part = {done, std::min(done + size, blocks)};
+    const auto start = Clock::now();
+    if (auto report = writer_.write(content)) {
+      account(*report, Clock::now() - start);
+      done = content.part->last;
+      continue;
+    } else {
+      note_refusal(std::move(report).error());
+    }
+    if (size <= kSmallest) break;
+    size = (size + 1) / 2;
+  }
+  return blocks - done;
 }
 
 void TileStore::account(const BatchWriter::Report& report, std::chrono::nanoseconds took) {
@@ -103,7 +150,6 @@ void TileStore::account(const BatchWriter::Report& report, std::chrono::nanoseco
     }
   }
   const std::lock_guard lock(mutex_);
-  writing_.clear();
   stats_.written += report.written.size();
   stats_.dropped_by_cap += report.dropped_by_cap;
   ++stats_.batches;
@@ -111,9 +157,6 @@ void TileStore::account(const BatchWriter::Report& report, std::chrono::nanoseco
   stats_.blocks_stored = static_cast<std::uint64_t>(writer_.blocks());
   stats_.bytes = writer_.bytes();
   stats_.last_batch = took;
-  stats_.error.reset();
-  is_refused_ = false;
-  room_.notify_all();
 }
 
 void TileStore::read_ahead(const BlockWindow& window) {
