@@ -12,6 +12,7 @@
 #include "swiftlet/app/cube_claims.hpp"
 #include "swiftlet/app/file_kind.hpp"
 #include "swiftlet/app/map_reader.hpp"
+#include "swiftlet/app/opened_map.hpp"
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/store/octomap_import.hpp"
 
@@ -22,6 +23,7 @@ struct CompareOptions {
   std::string first;
   std::string second;
   bool as_json = false;
+  bool is_salvaged = false;
 };
 
 Expected<CubeClaims> read_octomap_claims(const std::string& path) {
@@ -34,11 +36,11 @@ Expected<CubeClaims> read_octomap_claims(const std::string& path) {
   return claims;
 }
 
-Expected<CubeClaims> read_claims(const std::string& path) {
+Expected<CubeClaims> read_claims(const std::string& path, bool is_salvaged) {
   auto facts = look_at_file(path);
   if (!facts) return forward_error(std::move(facts));
   if (facts->kind == FileKind::kOctomap) return read_octomap_claims(path);
-  auto map = read_whole_map(path);
+  auto map = read_whole_map(path, is_salvaged);
   if (!map) return forward_error(std::move(map));
   CubeClaims claims(map->voxel_m);
   map->for_each_known_cell([&](const VoxelIndex& v, Occupancy state) { claims.add(v, 1, state); });
@@ -59,9 +61,9 @@ void print_text(const CubeClaims::Confusion& counts, std::uint64_t same, std::ui
 }
 
 Faults compare(const CompareOptions& options) {
-  const auto a = read_claims(options.first);
+  const auto a = read_claims(options.first, options.is_salvaged);
   if (!a) return {a.error()};
-  const auto b = read_claims(options.second);
+  const auto b = read_claims(options.second, options.is_salvaged);
   if (!b) return {b.error()};
   if (std::abs(a->voxel_m() - b->voxel_m()) > 1e-6 * a->voxel_m()) {
     return {{ErrorCode::kUnsupported, options.second,
@@ -90,6 +92,7 @@ Action declare_compare(CLI::App& parser) {
   parser.add_option("FIRST", o->first, "map file: .swl, .bt or .ot")->type_name("")->required();
   parser.add_option("SECOND", o->second, "map file: .swl, .bt or .ot")->type_name("")->required();
   parser.add_flag("--json", o->as_json, "one JSON object, for machines");
+  declare_salvage(parser, o->is_salvaged);
   parser.footer(
       "Examples:\n"
       "  swiftlet compare flat.swl flat.bt      our map and its export: every cell the same\n"

@@ -9,6 +9,7 @@
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/map_reader.hpp"
+#include "swiftlet/app/opened_map.hpp"
 #include "swiftlet/store/exporters.hpp"
 #include "swiftlet/store/output_file.hpp"
 
@@ -19,6 +20,7 @@ struct ExportOptions {
   std::string map;
   std::string format;
   std::string out;
+  bool is_salvaged = false;
 };
 
 Faults write_export(const ExportOptions& options) {
@@ -26,16 +28,15 @@ Faults write_export(const ExportOptions& options) {
       !allowed) {
     return fault_of(std::move(allowed));
   }
-  auto opened = open_map(options.map);
-  if (!opened) return fault_of(std::move(opened));
-  const SavedMap* const map = &opened->map;
-  auto thresholds = thresholds_of(*map);
+  auto map = open_map(options.map, options.is_salvaged);
+  if (!map) return fault_of(std::move(map));
+  auto thresholds = thresholds_of(map->file);
   if (!thresholds) return fault_of(std::move(thresholds));
-  auto written = export_map(options.format, *map, *thresholds, options.out);
+  auto written = export_map(options.format, map->file, *thresholds, options.out);
   if (!written) return fault_of(std::move(written));
   fmt::print("{}\n", options.out);
   if (options.format != "pcd") return {};
-  const auto origin = pcd_origin(*map, *thresholds);
+  const auto origin = pcd_origin(map->file, *thresholds);
   if (origin && !origin->isZero()) {
     fmt::print("far from the origin: add ({}, {}, {}) m to its points, as its header says\n",
                origin->x(), origin->y(), origin->z());
@@ -52,6 +53,7 @@ Action declare_export(CLI::App& parser) {
       ->type_name("NAME")
       ->required();
   parser.add_option("-o,--out", o->out, "file to write")->type_name("FILE")->required();
+  declare_salvage(parser, o->is_salvaged);
   parser.footer(
       "Examples:\n"
       "  swiftlet export flat.swl --to ply -o flat.ply    points for CloudCompare or MeshLab\n"

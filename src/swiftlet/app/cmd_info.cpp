@@ -12,6 +12,7 @@
 #include "swiftlet/app/file_kind.hpp"
 #include "swiftlet/app/map_reader.hpp"
 #include "swiftlet/app/octomap_summary.hpp"
+#include "swiftlet/app/opened_map.hpp"
 #include "swiftlet/app/summary.hpp"
 #include "swiftlet/app/visible_text.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 struct InfoOptions {
   std::string map;
   bool as_json = false;
+  bool is_salvaged = false;
 };
 
 /// The corners of the known cells [m, world].
@@ -68,7 +70,17 @@ void print_text(const SavedMap& map, const MapSummary& summary) {
   }
 }
 
-void print_json(const SavedMap& map, const MapSummary& summary) {
+nlohmann::ordered_json salvage_json(const SalvageReport& report) {
+  nlohmann::ordered_json json{{"kept", report.kept},
+                              {"missing", nullptr},
+                              {"is_whole", report.is_whole()},
+                              {"lines", report.lines()}};
+  if (report.missing) json["missing"] = *report.missing;
+  return json;
+}
+
+void print_json(const OpenedMap& opened, const MapSummary& summary) {
+  const SavedMap& map = opened.file;
   nlohmann::ordered_json json{
       {"path", map.path().string()},
       {"bytes", bytes_of(map)},
@@ -85,6 +97,7 @@ void print_json(const SavedMap& map, const MapSummary& summary) {
     json["bounds_m"] = {{"low", {b->low.x(), b->low.y(), b->low.z()}},
                         {"high", {b->high.x(), b->high.y(), b->high.z()}}};
   }
+  if (opened.salvage) json["salvage"] = salvage_json(*opened.salvage);
   fmt::print("{}\n", json_text(json));
 }
 
@@ -111,15 +124,15 @@ Faults info(const InfoOptions& options) {
   if (!facts) return fault_of(std::move(facts));
   if (facts->kind == FileKind::kBag) return info_on_bag(options);
   if (facts->kind == FileKind::kOctomap) return info_on_octomap(options);
-  if (facts->kind != FileKind::kMap)
+  if (facts->kind != FileKind::kMap && !options.is_salvaged)
     return {wrong_kind(options.map, *facts, "a map (.swl, .bt or .ot) or a ROS bag")};
-  auto map = load_map(options.map);
+  auto map = open_map(options.map, options.is_salvaged);
   if (!map) return fault_of(std::move(map));
-  auto thresholds = thresholds_of(*map);
+  auto thresholds = thresholds_of(map->file);
   if (!thresholds) return fault_of(std::move(thresholds));
-  auto summary = summarize(*map, *thresholds);
+  auto summary = summarize(map->file, *thresholds);
   if (!summary) return fault_of(std::move(summary));
-  options.as_json ? print_json(*map, *summary) : print_text(*map, *summary);
+  options.as_json ? print_json(*map, *summary) : print_text(map->file, *summary);
   return {};
 }
 
@@ -131,6 +144,7 @@ Action declare_info(CLI::App& parser) {
       ->type_name("")
       ->required();
   parser.add_flag("--json", o->as_json, "one JSON object, for machines");
+  declare_salvage(parser, o->is_salvaged);
   parser.footer(
       "Examples:\n"
       "  swiftlet info flat.swl\n"

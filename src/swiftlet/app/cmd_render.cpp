@@ -10,6 +10,7 @@
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/map_reader.hpp"
 #include "swiftlet/app/map_view.hpp"
+#include "swiftlet/app/opened_map.hpp"
 #include "swiftlet/store/output_file.hpp"
 
 namespace swiftlet::app {
@@ -20,6 +21,7 @@ struct RenderOptions {
   std::string out;
   std::string view = "top";
   ViewOptions how;
+  bool is_salvaged = false;
 };
 
 Faults render(const RenderOptions& options) {
@@ -29,7 +31,7 @@ Faults render(const RenderOptions& options) {
       !allowed) {
     return fault_of(std::move(allowed));
   }
-  auto map = read_whole_map(options.map);
+  auto map = read_whole_map(options.map, options.is_salvaged);
   if (!map) return fault_of(std::move(map));
   auto picture = draw_view(options.view, *map, options.how);
   if (!picture) {
@@ -66,6 +68,7 @@ Action declare_render(CLI::App& parser) {
       .add_option("--scale", o->how.cell_px, "pixels per cell, 1 to 256 (default: what fits 1600)")
       ->check(scales)
       ->type_name("PX");
+  declare_salvage(parser, o->is_salvaged);
   parser.footer(
       "Examples:\n"
       "  swiftlet render flat.swl -o plan.png                          from above\n"

@@ -8,6 +8,7 @@
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/map_reader.hpp"
 #include "swiftlet/app/map_saver.hpp"
+#include "swiftlet/app/opened_map.hpp"
 #include "swiftlet/app/station_flags.hpp"
 #include "swiftlet/base/number_text.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 struct MapViewFlags {
   std::string map;
   StationFlags station;
+  bool is_salvaged = false;
 };
 
 /// The whole map, and what its file tells of it.
@@ -45,9 +47,9 @@ Expected<station::SavedWorld> read_world(const SavedMap& file) {
 Faults view(const MapViewFlags& flags) {
   auto options = station_options(flags.station);
   if (!options) return fault_of(std::move(options));
-  auto opened = open_map(flags.map);
+  auto opened = open_map(flags.map, flags.is_salvaged);
   if (!opened) return fault_of(std::move(opened));
-  const SavedMap* const file = &opened->map;
+  const SavedMap* const file = &opened->file;
   auto world = read_world(*file);
   if (!world) return fault_of(std::move(world));
   world->facts.source = flags.map;
@@ -65,6 +67,7 @@ Faults view(const MapViewFlags& flags) {
 Action declare_view(CLI::App& parser) {
   auto o = std::make_shared<MapViewFlags>();
   parser.add_option("MAP", o->map, "map file: .swl, .bt or .ot")->type_name("")->required();
+  declare_salvage(parser, o->is_salvaged);
   declare_station_flags(parser, o->station);
   parser.footer(
       "Examples:\n"

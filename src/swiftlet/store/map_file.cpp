@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "swiftlet/store/block_codec.hpp"
@@ -15,6 +16,12 @@ namespace swiftlet {
 namespace {
 
 using sqlite::Statement;
+
+/// A config is some kilobytes.
+constexpr std::size_t kMostMetaBytes = std::size_t{1} << 20U;
+
+/// Blocks whose voxels have an int32 index.
+constexpr std::int32_t kMaxBlock = (1 << 28) - 1;
 
 std::int64_t as_signed(std::uint64_t v) { return std::bit_cast<std::int64_t>(v); }
 std::uint64_t as_unsigned(std::int64_t v) { return std::bit_cast<std::uint64_t>(v); }
@@ -48,6 +55,18 @@ Status visit_rows(Statement& statement, const MapFile::VisitRow& visit) {
 
 bool BlockRow::is_intact() const { return checksum == block_checksum(index, touched, data); }
 
+std::optional<std::string> fault_of(const BlockRow& row, BlockCodec& codec, VoxelBlock& out) {
+  const auto is_sane = [](std::int32_t v) { return v >= -kMaxBlock && v <= kMaxBlock; };
+  const BlockIndex& b = row.index;
+  const auto of_block = [&](const char* fault) {
+    return fmt::format("block {} {} {} {}", b.x, b.y, b.z, fault);
+  };
+  if (!row.is_intact()) return of_block("is damaged: its checksum differs");
+  if (!is_sane(b.x) || !is_sane(b.y) || !is_sane(b.z)) return of_block("lies outside the world");
+  if (!codec.decompress(row.data, out)) return of_block("does not decompress to 512 cells");
+  return std::nullopt;
+}
+
 Status decode_row(const BlockRow& row, BlockCodec& codec, VoxelBlock& out) {
   if (row.is_intact() && codec.decompress(row.data, out)) return Done{};
   return fail(
@@ -62,14 +81,17 @@ Expected<MapMeta> MapFile::meta() {
   if (!sums) return forward_error(std::move(sums));
   MapMeta meta;
   std::uint64_t digest = 0;
+  std::size_t bytes = 0;
   for (;;) {
     auto has_row = lines->step();
     if (!has_row) return forward_error(std::move(has_row));
     if (!*has_row) break;
+    bytes += lines->text(0).size() + lines->text(1).size() + 1;
+    if (bytes > kMostMetaBytes) break;
     digest += meta_checksum(lines->text(0), lines->text(1));
     meta.insert_or_assign(std::string(lines->text(0)), std::string(lines->text(1)));
   }
-  if (digest == sums->meta_digest) return meta;
+  if (digest == sums->meta_digest && bytes <= kMostMetaBytes) return meta;
   return fail(ErrorCode::kCorruptInput, path_.string(),
               "the description of the map (table 'meta') is damaged");
 }
@@ -96,7 +118,18 @@ Expected<bool> MapFile::read(const BlockIndex& index, const VisitRow& visit) {
   return was_found;
 }
 
-Status MapFile::for_each(const VisitRow& visit) { return visit_rows(all_, visit); }
+Status MapFile::for_each(const VisitRow& visit) {
+  std::optional<BlockIndex> last;
+  return visit_rows(all_, [&](const BlockRow& row) -> Status {
+    const auto order = [](const BlockIndex& b) { return std::tuple(b.z, b.y, b.x); };
+    if (last && order(row.index) <= order(*last)) {
+      return fail(ErrorCode::kCorruptInput, path_.string(),
+                  "the blocks of the map are out of order", "--salvage reads what is sound");
+    }
+    last = row.index;
+    return visit(row);
+  });
+}
 
 Expected<std::vector<std::string>> MapFile::integrity_faults() {
   auto check = database_.prepare("PRAGMA integrity_check(20)");

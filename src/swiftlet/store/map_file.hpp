@@ -36,6 +36,11 @@ struct BlockRow {
   [[nodiscard]] bool is_intact() const;
 };
 
+/// What is wrong with a row, as a sentence about its block; nullopt if nothing is, and it stands in
+/// `out`.
+[[nodiscard]] std::optional<std::string> fault_of(const BlockRow& row, BlockCodec& codec,
+                                                  VoxelBlock& out);
+
 /// Decompresses a row into `out`. Errors: kCorruptInput naming the block if any of its bits
 /// changed.
 [[nodiscard]] Status decode_row(const BlockRow& row, BlockCodec& codec, VoxelBlock& out);
@@ -80,7 +85,9 @@ class MapFile {
   /// read as it is, and so is a map in a folder that is read-only.
   /// Errors: kNotFound, kCorruptInput if it is no Swiftlet map or damaged, kUnsupported if it is of
   /// a newer version, kIo.
-  [[nodiscard]] static Expected<MapFile> open_to_read(const std::filesystem::path& path);
+  /// `shown_as`: what errors call the file, if not by its path.
+  [[nodiscard]] static Expected<MapFile> open_to_read(const std::filesystem::path& path,
+                                                      const std::filesystem::path& shown_as = {});
   /// Opens the write-ahead log as well. `max_bytes`: hard limit of the file's size, 0 = none.
   /// `lock`: what create() has returned; without, it is taken. Errors: kUsage while another
   /// process writes the map; those of open_to_read().
@@ -90,6 +97,7 @@ class MapFile {
   // Reading.
   /// From now on all reads see one state of the map, whatever a writer commits meanwhile.
   [[nodiscard]] Status hold_view();
+  void let_go_of_view() { rollback(); }
   [[nodiscard]] Expected<MapMeta> meta();
   [[nodiscard]] Expected<MapSeal> seal();
   /// Calls visit(row) if the block is stored; true if it was.

@@ -35,13 +35,16 @@ bool may_write_beside(const fs::path& path) {
 
 }  // namespace
 
-Expected<MapFile> MapFile::open_to_read(const fs::path& path) {
+Expected<MapFile> MapFile::open_to_read(const fs::path& path, const fs::path& shown_as) {
   std::error_code error;
   if (!fs::exists(path, error)) {
     return fail(ErrorCode::kNotFound, path.string(), "there is no such map");
   }
   if (!fs::is_regular_file(path, error)) {
     return fail(ErrorCode::kCorruptInput, path.string(), "this is not a file");
+  }
+  if (!shown_as.empty()) {
+    return with(shown_as, Database::open(path, Database::Mode::kReadOnly, shown_as.string()));
   }
   const auto writer = writer_of(path);
   // To SQLite, reading a log is to write an index of it; where it may not, it waits long in vain.
@@ -113,12 +116,17 @@ Status prepare_each(const Database& database,
 
 }  // namespace
 
+// SQLite tells the length of a blob without reading it: one that is too long to be a block
+// (BlockCodec::kMaxBytes) may be a loop of pages.
 Status MapFile::prepare_reading() {
+  static_assert(BlockCodec::kMaxBytes == 640);
   return prepare_each(
-      database_,
-      {{&read_,
-        "SELECT z, y, x, touched, checksum, data FROM blocks WHERE z = ?1 AND y = ?2 AND x = ?3"},
-       {&all_, "SELECT z, y, x, touched, checksum, data FROM blocks ORDER BY z, y, x"}});
+      database_, {{&read_,
+                   "SELECT z, y, x, touched, checksum, CASE WHEN length(data) <= 640 THEN data END "
+                   "FROM blocks WHERE z = ?1 AND y = ?2 AND x = ?3"},
+                  {&all_,
+                   "SELECT z, y, x, touched, checksum, CASE WHEN length(data) <= 640 THEN data END "
+                   "FROM blocks ORDER BY z, y, x"}});
 }
 
 Status MapFile::prepare_writing() {

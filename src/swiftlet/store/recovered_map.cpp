@@ -166,7 +166,7 @@ Expected<fs::path> copy_recovered(const fs::path& path, const PrivateFolder& fol
   const auto grown = fs::file_size(copy, none);
   if (none || grown > stand_of(real).bytes) {
     return fail(ErrorCode::kCorruptInput, path.string(), "the log of the map is damaged",
-                "`swiftlet check` lists what is");
+                "--salvage reads what is sound");
   }
   return copy;
 }

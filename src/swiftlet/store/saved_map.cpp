@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "swiftlet/base/number_text.hpp"
@@ -15,26 +16,11 @@
 namespace swiftlet {
 namespace {
 
-/// Blocks whose voxels have an int32 index.
-constexpr std::int32_t kMaxBlock = (1 << 28) - 1;
-
 template <class T>
 std::optional<T> number_of(const MapMeta& meta, const std::string& key) {
   const auto line = meta.find(key);
   if (line == meta.end()) return std::nullopt;
   return number_from<T>(line->second);
-}
-
-std::optional<std::string> fault_of(const BlockRow& row, BlockCodec& codec, VoxelBlock& out) {
-  const auto is_sane = [](std::int32_t v) { return v >= -kMaxBlock && v <= kMaxBlock; };
-  const BlockIndex& b = row.index;
-  const auto of_block = [&](const char* fault) {
-    return fmt::format("block {} {} {} {}", b.x, b.y, b.z, fault);
-  };
-  if (!row.is_intact()) return of_block("is damaged: its checksum differs");
-  if (!is_sane(b.x) || !is_sane(b.y) || !is_sane(b.z)) return of_block("lies outside the world");
-  if (!codec.decompress(row.data, out)) return of_block("does not decompress to 512 cells");
-  return std::nullopt;
 }
 
 Status compare_seals(const MapSeal& found, const MapSeal& sealed, const std::string& where) {
@@ -46,14 +32,29 @@ Status compare_seals(const MapSeal& found, const MapSeal& sealed, const std::str
 
 }  // namespace
 
-Expected<SavedMap> load_map(const std::filesystem::path& path) {
-  auto file = MapFile::open_to_read(path);
-  if (!file) return forward_error(std::move(file));
-  if (auto held = file->hold_view(); !held) return forward_error(std::move(held));
-  return SavedMap::of(path, std::move(*file));
+std::optional<std::array<double, 3>> place_from(std::string_view text, double voxel_m) {
+  constexpr double kMostVoxels = 2147483648.0;  // an index is an int32
+  std::array<double, 3> place{};
+  for (double& axis : place) {
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const auto value = number_from<double>(text.substr(0, end));
+    if (!value || !(std::abs(*value) < kMostVoxels * voxel_m)) return std::nullopt;
+    axis = *value;
+    text.remove_prefix(end);
+  }
+  if (text.find_first_not_of(' ') != std::string_view::npos) return std::nullopt;
+  return place;
 }
 
-Expected<SavedMap> SavedMap::of(const std::filesystem::path& path, MapFile file) {
+Expected<SavedMap> load_map(const std::filesystem::path& path) {
+  return SavedMap::of(path, MapFile::open_to_read(path));
+}
+
+Expected<SavedMap> SavedMap::of(const std::filesystem::path& path, Expected<MapFile> opened) {
+  if (!opened) return forward_error(std::move(opened));
+  MapFile file = std::move(*opened);
+  if (auto held = file.hold_view(); !held) return forward_error(std::move(held));
   auto meta = file.meta();
   if (!meta) return forward_error(std::move(meta));
   auto seal = file.seal();
@@ -66,6 +67,14 @@ Expected<SavedMap> SavedMap::of(const std::filesystem::path& path, MapFile file)
                 "the map does not say its cell size or its number of frames");
   }
   SavedMap map;
+  if (const auto start = meta->find("start_m"); start != meta->end()) {
+    map.start_m_ = place_from(start->second, *voxel_m);
+    if (!map.start_m_) {
+      return fail(ErrorCode::kCorruptInput, path.string(),
+                  "its start_m is no place in the world: three numbers in metres are expected",
+                  "--salvage reads the map without it");
+    }
+  }
   map.path_ = path;
   map.voxel_m_ = *voxel_m;
   map.frames_ = *frames;
@@ -83,7 +92,8 @@ Status SavedMap::for_each_block(const VisitBlock& visit) const {
   MapSeal found;
   auto passed = file_->for_each([&](const BlockRow& row) -> Status {
     if (const auto fault = fault_of(row, codec, block)) {
-      return fail(ErrorCode::kCorruptInput, path_.string(), *fault, "`swiftlet check` lists all");
+      return fail(ErrorCode::kCorruptInput, path_.string(), *fault,
+                  "`swiftlet check` lists all, --salvage reads the rest");
     }
     ++found.blocks;
     found.block_digest += row.checksum;
@@ -98,7 +108,8 @@ Expected<std::optional<VoxelBlock>> SavedMap::find(const BlockIndex& index) cons
   VoxelBlock block;
   auto found = file_->read(index, [&](const BlockRow& row) -> Status {
     if (const auto fault = fault_of(row, codec, block)) {
-      return fail(ErrorCode::kCorruptInput, path_.string(), *fault);
+      return fail(ErrorCode::kCorruptInput, path_.string(), *fault,
+                  "`swiftlet check` lists all, --salvage reads the rest");
     }
     return Done{};
   });
@@ -155,7 +166,8 @@ std::vector<Error> check_map(const std::filesystem::path& path) {
   } else if (auto same = compare_seals(found, *sealed, path.string()); !same) {
     faults.push_back(std::move(same).error());
   }
-  if (auto map = SavedMap::of(path, std::move(*file)); !map) {
+  file->let_go_of_view();
+  if (auto map = SavedMap::of(path, std::move(file)); !map) {
     faults.push_back(std::move(map).error());
   }
   return faults;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "swiftlet/base/expected.hpp"
@@ -31,6 +32,12 @@ class SavedMap {
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
   [[nodiscard]] std::uint64_t block_count() const { return block_count_; }
   [[nodiscard]] const MapMeta& meta() const { return meta_; }
+  /// The camera at the first frame [m, world]; nullopt if the map does not tell it.
+  [[nodiscard]] const std::optional<std::array<double, 3>>& start_m() const { return start_m_; }
+
+  /// A map file that is open to be read; sees one state of it from now on. Errors: as load_map().
+  [[nodiscard]] static Expected<SavedMap> of(const std::filesystem::path& path,
+                                             Expected<MapFile> opened);
 
   /// Called for every block by z, then y, then x; an error ends the pass and is handed on.
   using VisitBlock = std::function<Status(const BlockIndex&, const VoxelBlock&)>;
@@ -41,22 +48,25 @@ class SavedMap {
   [[nodiscard]] Expected<std::optional<VoxelBlock>> find(const BlockIndex& index) const;
 
  private:
-  friend Expected<SavedMap> load_map(const std::filesystem::path& path);
-  friend std::vector<Error> check_map(const std::filesystem::path& path);
   SavedMap() = default;
-  [[nodiscard]] static Expected<SavedMap> of(const std::filesystem::path& path, MapFile file);
 
   std::filesystem::path path_;
   double voxel_m_ = 0.0;
   std::uint64_t frames_ = 0;
   std::uint64_t block_count_ = 0;
   MapMeta meta_;
+  std::optional<std::array<double, 3>> start_m_;
   mutable std::unique_ptr<MapFile> file_;  // reading moves a cursor, not the map
 };
 
 /// Opens a map, also one whose writer was killed or is at work (then: its last batch).
 /// Errors: kNotFound, kCorruptInput, kUnsupported if it is of a newer version, kIo.
 [[nodiscard]] Expected<SavedMap> load_map(const std::filesystem::path& path);
+
+/// The place that the text of `start_m` tells: three numbers with blanks between; nullopt if that
+/// is no place where a map with cells of `voxel_m` can be.
+[[nodiscard]] std::optional<std::array<double, 3>> place_from(std::string_view text,
+                                                              double voxel_m);
 
 /// What `swiftlet info` tells about the cells of a map.
 struct MapSummary {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <cstring>
 #include <system_error>
 #include <utility>
@@ -16,6 +17,8 @@ namespace swiftlet::sqlite {
 namespace {
 
 constexpr int kBusyTimeout_ms = 1000;
+constexpr int kLongestValue = 16 << 20;  // a config is some kilobytes
+constexpr auto kNoSize = static_cast<std::uintmax_t>(-1);
 
 std::string system_reason(sqlite3* connection) {
   const int number = connection == nullptr ? 0 : sqlite3_system_errno(connection);
@@ -63,7 +66,12 @@ tl::unexpected<Error> failure(sqlite3* connection, int code, const std::string& 
     case SQLITE_CORRUPT:
     case SQLITE_FORMAT:
       return fail(ErrorCode::kCorruptInput, where, "the map file is damaged",
-                  "`swiftlet check` lists what is");
+                  "`swiftlet check` lists what is, --salvage reads the rest");
+    case SQLITE_INTERRUPT:  // the budget of work
+    case SQLITE_TOOBIG:
+      return fail(ErrorCode::kCorruptInput, where,
+                  "the map file is damaged: there is no end to what its size could not hold",
+                  "--salvage reads what is sound");
     default:
       break;
   }
@@ -107,7 +115,10 @@ Status Statement::run() {
   return Done{};
 }
 
-void Statement::reset() { sqlite3_reset(statement_.get()); }
+void Statement::reset() {
+  sqlite3_reset(statement_.get());
+  if (budget_) budget_->left = budget_->whole;
+}
 
 std::int64_t Statement::integer(int column) const {
   return sqlite3_column_int64(statement_.get(), column);
@@ -147,7 +158,33 @@ Expected<Database> Database::open(const std::filesystem::path& path, Mode mode,
   // A map from elsewhere is data, not program: nothing in its schema may run.
   sqlite3_db_config(connection, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(connection, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  if (mode == Mode::kReadOnly || mode == Mode::kImmutable) {
+    std::error_code none;
+    const auto bytes = std::filesystem::file_size(path, none);
+    const auto log = std::filesystem::file_size(path.string() + "-wal", none);
+    database.limit_work((bytes == kNoSize ? 0 : bytes) + (log == kNoSize ? 0 : log));
+  }
   return database;
+}
+
+void Database::limit_work(std::uint64_t bytes) {
+  // A row takes some 25 bytes at least, and SQLite's integrity check some 25 steps a row.
+  constexpr std::int64_t kBase = 5'000'000;
+  constexpr std::int64_t kPerByte = 4;
+  constexpr int kEvery = 1000;
+  budget_ = std::make_shared<WorkBudget>();
+  const auto size = static_cast<std::int64_t>(std::min<std::uint64_t>(bytes, 1ULL << 48U));
+  budget_->whole = kBase + kPerByte * size;
+  budget_->left = budget_->whole;
+  sqlite3_limit(connection_.get(), SQLITE_LIMIT_LENGTH, kLongestValue);
+  sqlite3_progress_handler(
+      connection_.get(), kEvery,
+      [](void* budget) {
+        auto& left = static_cast<WorkBudget*>(budget)->left;
+        left -= kEvery;
+        return left < 0 ? 1 : 0;
+      },
+      budget_.get());
 }
 
 Status Database::run(const std::string& sql) {
@@ -159,6 +196,8 @@ Status Database::run(const std::string& sql) {
 Expected<Statement> Database::prepare(std::string_view sql) const {
   Statement statement;
   statement.where_ = where_;
+  statement.budget_ = budget_;
+  if (budget_) budget_->left = budget_->whole;
   sqlite3_stmt* raw = nullptr;
   const int code = sqlite3_prepare_v3(connection_.get(), sql.data(), to<int>(sql.size()),
                                       SQLITE_PREPARE_PERSISTENT, &raw, nullptr);

@@ -18,6 +18,13 @@ struct sqlite3_stmt;
 
 namespace swiftlet::sqlite {
 
+/// What one statement may do: a file can be made that keeps SQLite busy for years, or have it read
+/// the same pages for ever. A sound one needs far less than its size allows.
+struct WorkBudget {
+  std::int64_t whole = 0;  ///< steps of SQLite's machine
+  std::int64_t left = 0;
+};
+
 /// A prepared statement. Parameters and columns count as in SQLite: from 1 and from 0.
 /// REQUIRES: the Database it came from is still open.
 class Statement {
@@ -46,6 +53,7 @@ class Statement {
   struct Finalize {
     void operator()(sqlite3_stmt* statement) const;
   };
+  std::shared_ptr<WorkBudget> budget_;
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
   std::string where_;  // the file, for errors
 };
@@ -82,6 +90,9 @@ class Database {
   struct Close {
     void operator()(sqlite3* connection) const;
   };
+  void limit_work(std::uint64_t bytes);
+
+  std::shared_ptr<WorkBudget> budget_;  // null: opened to write
   std::unique_ptr<sqlite3, Close> connection_;
   std::string where_;
 };
