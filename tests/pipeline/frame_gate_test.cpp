@@ -68,6 +68,41 @@ TEST(FrameGate, refuses_a_frozen_image_once_the_camera_has_moved_and_until_it_li
   EXPECT_EQ(used, QualityLimits{}.max_frozen);
 }
 
+TEST(FrameGate, refuses_two_or_more_frozen_images_in_turn) {
+  for (const int in_turn : {2, 3, 4}) {
+    Random random;
+    std::vector<DepthImage> images;
+    for (int i = 0; i < in_turn; ++i) images.push_back(test::boxes_before_a_wall(random));
+    FrameGate gate({});
+    int used = 0;
+    for (int i = 0; i < 40; ++i) {
+      const auto& image = images[static_cast<std::size_t>(i % in_turn)];
+      used += gate.refusal(frame_of(image, 0.05 * i)) ? 0 : 1;
+    }
+    EXPECT_LE(used, in_turn + QualityLimits{}.max_frozen);
+    EXPECT_EQ(gate.refusal(frame_of(test::boxes_before_a_wall(random), 3.0)), std::nullopt);
+  }
+}
+
+TEST(FrameGate, refuses_white_noise_in_every_pixel_or_in_half_of_them) {
+  test::for_each_seed(5, [](Random& random) {
+    for (const int nearest : {1, 300}) {
+      for (const double share : {1.0, 0.5}) {
+        Frame noise = flat_frame(0);
+        for (std::uint16_t& z : noise.depth.raw.pixels()) {
+          if (random.chance(share))
+            z = static_cast<std::uint16_t>(random.integer(nearest, nearest == 1 ? 65534 : 6000));
+        }
+        FrameGate gate({});
+        EXPECT_EQ(gate.refusal(noise), FrameVerdict::kNoise) << nearest << " " << share;
+        QualityLimits none;
+        none.max_rough = 1.0;
+        EXPECT_EQ(FrameGate(none).refusal(noise), std::nullopt);
+      }
+    }
+  });
+}
+
 TEST(FrameGate, each_limit_can_be_set_and_be_taken_away) {
   Random random;
   const DepthImage sharp = test::boxes_before_a_wall(random);

@@ -104,9 +104,26 @@ double share_of_smeared_edges(const DepthImage& depth) {
   return std::max(share(rows), share(columns));
 }
 
+double share_of_rough_pairs(const DepthImage& depth) {
+  constexpr int kEvery = 16;
+  constexpr std::size_t kFewest = 500;
+  std::size_t pairs = 0, rough = 0;
+  for (int v = kEvery / 2; v < depth.raw.height(); v += kEvery) {
+    const auto row = depth.raw.row(v);
+    for (std::size_t u = 1; u < row.size(); ++u) {
+      const int a = row[u - 1], b = row[u];
+      const bool is_pair = a != 0 && b != 0;
+      pairs += is_pair ? 1 : 0;
+      rough += is_pair && 4 * std::abs(a - b) > std::min(a, b) ? 1 : 0;
+    }
+  }
+  return pairs < kFewest ? 0.0 : share_of(rough, pairs);
+}
+
 FrameQuality measure_quality(const DepthImage& depth) {
   const ReadingShares shares = shares_of_readings(depth);
-  return {shares.valid, shares.saturated, share_at_one_value(depth), share_of_smeared_edges(depth)};
+  return {shares.valid, shares.saturated, share_at_one_value(depth), share_of_smeared_edges(depth),
+          share_of_rough_pairs(depth)};
 }
 
 }  // namespace swiftlet

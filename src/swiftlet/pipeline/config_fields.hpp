@@ -58,6 +58,10 @@ void quality(Options& o, Visit& visit) {
   visit(ConfigField{"quality.max_smeared",
                     "likewise with a larger share of blurred depth edges; 1: never", 0.0, 1.0},
         o.max_smeared);
+  visit(ConfigField{"quality.max_rough",
+                    "likewise with a larger share of neighbours that no surface has; 1: never", 0.0,
+                    1.0},
+        o.max_rough);
   visit(ConfigField{"quality.max_frozen",
                     "likewise after so many equal images from a camera that moves; 0: never", 0,
                     1000},

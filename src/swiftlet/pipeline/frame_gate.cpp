@@ -35,8 +35,12 @@ bool FrameGate::is_frozen(const Frame& frame) {
   if (limits_.max_frozen == 0) return false;
   Run& run = runs_[frame.camera];
   const std::uint64_t hash = hash_of_some_rows(frame.depth.raw);
-  if (run.images == 0 || hash != run.hash) {
-    run = {hash, 1, frame.T_world_camera};
+  if (run.images == 0 || std::ranges::find(run.hashes, hash) == run.hashes.end()) {
+    if (run.images == 0) run.hashes.fill(hash);
+    run.hashes[run.next] = hash;
+    run.next = (run.next + 1) % kInTurn;
+    run.images = 1;
+    run.T_world_camera = frame.T_world_camera;
     return false;
   }
   ++run.images;
@@ -58,6 +62,8 @@ std::optional<FrameVerdict> FrameGate::refusal(const Frame& frame) {
   if (is_frozen(frame)) return FrameVerdict::kFrozen;
   if (limits_.max_smeared < 1.0 && share_of_smeared_edges(depth) > limits_.max_smeared)
     return FrameVerdict::kSmeared;
+  if (limits_.max_rough < 1.0 && share_of_rough_pairs(depth) > limits_.max_rough)
+    return FrameVerdict::kNoise;
   return std::nullopt;
 }
 

@@ -20,9 +20,10 @@ enum class FrameVerdict : std::uint8_t {
   kSmeared,         ///< most depth edges are drawn out: moved during the exposure
   kFrozen,          ///< the camera moves and its image does not
   kOtherWorld,      ///< its poses and the map share no world (map.on_new_world)
+  kNoise,           ///< hardly two neighbours agree: no surface looks so
 };
-inline constexpr std::array<std::string_view, 9> kFrameVerdictNames{
+inline constexpr std::array<std::string_view, 10> kFrameVerdictNames{
     "integrated", "no_readings", "size_mismatch", "pose_out_of_range", "mostly_empty",
-    "saturated",  "smeared",     "frozen",        "other_world"};
+    "saturated",  "smeared",     "frozen",        "other_world",       "noise"};
 
 }  // namespace swiftlet
