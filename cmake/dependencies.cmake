@@ -16,6 +16,7 @@ find_package(yaml-cpp REQUIRED)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
 find_package(BZip2 REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)  # HMAC of poses that come over a network
 
 # Optional parts (see swiftlet_backend()).
 swiftlet_backend(NAME embree PACKAGE embree)    # ray casts the simulated scenes

@@ -3,17 +3,22 @@
 
 #include "swiftlet/source/pose_line.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <random>
+#include <string>
 #include <thread>
 
 #include "source/udp_sender.hpp"
 #include "support/temp_folder.hpp"
 #include "swiftlet/source/bag_streams.hpp"
 #include "swiftlet/source/live_rig.hpp"
+#include "swiftlet/source/pose_guard.hpp"
 #include "swiftlet/source/pose_socket.hpp"
 
 namespace swiftlet {
@@ -129,6 +134,112 @@ TEST(PoseSocket, takes_one_or_more_lines_a_datagram_and_survives_the_rest) {
   EXPECT_EQ(poses[2].stamp.ns, 3'000'000'000);
   ASSERT_EQ(notes.events().size(), 1U) << "told at most once a second";
   EXPECT_EQ(notes.events()[0].kind, RigEventKind::kBadPose);
+}
+
+constexpr std::string_view kKey = "0123456789abcdef0123456789abcdef";
+
+Stamp now() {
+  return Stamp{Nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()};
+}
+
+TEST(PoseGuard, admits_what_the_owner_of_the_key_sends_once_and_in_order_and_nothing_else) {
+  PoseGuard guard{std::string(kKey)};
+  const Stamp t = now();
+  const std::string lines = "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n";
+  const std::string good = signed_poses(lines, kKey, t);
+  EXPECT_EQ(guard.admit(good, t), lines);
+  EXPECT_EQ(guard.admit(good, t).error(), PoseDenial::kReplayed) << "the same again";
+  const Stamp later = t + std::chrono::milliseconds(1);
+  EXPECT_EQ(guard.admit(signed_poses(lines, kKey, later), t), lines);
+  EXPECT_EQ(guard.admit(good, t).error(), PoseDenial::kReplayed) << "an older one";
+  for (const auto off : {std::chrono::seconds(31), std::chrono::seconds(-31)}) {
+    EXPECT_EQ(guard.admit(signed_poses(lines, kKey, t + off), t).error(), PoseDenial::kReplayed);
+  }
+  EXPECT_EQ(guard.admit(lines, t).error(), PoseDenial::kForged);
+  EXPECT_EQ(guard.admit("", t).error(), PoseDenial::kForged);
+  const Stamp last = t + std::chrono::seconds(1);
+  EXPECT_EQ(guard.admit(signed_poses(lines, "another key", last), t).error(), PoseDenial::kForged);
+  const std::string whole = signed_poses(lines, kKey, last);
+  for (std::size_t i = 0; i + 1 < whole.size(); ++i) {  // but for the last line end
+    std::string spoilt = whole;
+    spoilt[i] = static_cast<char>(spoilt[i] ^ 1);
+    EXPECT_FALSE(guard.admit(spoilt, t)) << "byte " << i;
+  }
+  EXPECT_EQ(guard.admit(whole, t), lines);
+}
+
+TEST(PoseGuard, computes_the_hmac_that_others_do) {
+  // printf '1 0 0 0 0 0 0 1\nsent 5\n' | openssl dgst -sha256 -hmac 0123456789abcdef...
+  EXPECT_EQ(signed_poses("1 0 0 0 0 0 0 1", kKey, Stamp{5}),
+            "1 0 0 0 0 0 0 1\nsent 5\nhmac "
+            "0ba54a2c61f914b7af7743e8a92d455bb78d28050edb501fc90f2e0a19a19f59\n");
+}
+
+TEST(PoseSocket, with_a_key_takes_signed_poses_and_counts_the_others_by_reason) {
+  const test::TempFolder folder;
+  test::write_file(folder / "key", std::string(kKey) + "\n");
+  PoseAddress address;
+  const test::UdpSender sender;
+  address.port = sender.port();
+  address.key_file = folder / "key";
+  Notes notes;
+  std::filesystem::permissions(folder / "key", std::filesystem::perms(0644));
+  EXPECT_THAT(listen_for_poses(address, BodyAxes::kRep103, notes).error().text(),
+              HasSubstr("chmod 600"));
+  std::filesystem::permissions(folder / "key", std::filesystem::perms(0600));
+  const auto socket = listen_for_poses(address, BodyAxes::kRep103, notes);
+  ASSERT_TRUE(socket) << socket.error().text();
+  const std::string good = signed_poses("1 0 0 0 0 0 0 1\n", kKey, now());
+  sender.send(good);
+  sender.send(good);
+  sender.send("2 0 0 0 0 0 0 1\n");
+  sender.send(signed_poses("3 0 0 0 0 0 0 1\n", kKey, now()));
+  const auto poses = notes.poses(2);
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses[1].stamp.ns, 3'000'000'000);
+  ASSERT_EQ(notes.events().size(), 2U);
+  EXPECT_EQ(notes.events()[0].kind, RigEventKind::kReplayedPose);
+  EXPECT_EQ(notes.events()[1].kind, RigEventKind::kForgedPose);
+}
+
+TEST(PoseSocket, refuses_a_key_that_is_short_or_missing) {
+  const test::TempFolder folder;
+  test::write_file(folder / "key", "short\n");
+  std::filesystem::permissions(folder / "key", std::filesystem::perms(0600));
+  EXPECT_THAT(load_pose_key(folder / "key").error().text(), HasSubstr("openssl rand"));
+  EXPECT_THAT(load_pose_key(folder / "none").error().text(), HasSubstr("no such file"));
+}
+
+TEST(PoseSocket, beyond_loopback_without_a_key_is_warned_of) {
+  const test::UdpSender sender;
+  Notes notes;
+  const auto address = parse_pose_address(fmt::format("udp:0.0.0.0:{}", sender.port()));
+  ASSERT_TRUE(address);
+  ASSERT_TRUE(listen_for_poses(*address, BodyAxes::kRep103, notes));
+  ASSERT_EQ(notes.events().size(), 1U);
+  EXPECT_EQ(notes.events()[0].kind, RigEventKind::kOpenPort);
+  for (const char* bad : {"udp:", "udp:0", "udp:host:5", "udp:1.2.3.4:0", "unix:", "tcp:1"})
+    EXPECT_FALSE(parse_pose_address(bad)) << bad;
+}
+
+TEST(PoseSocket, in_the_file_system_is_its_users_alone_and_takes_over_what_a_killed_one_left) {
+  const test::TempFolder folder;
+  const auto address = parse_pose_address("unix:" + (folder / "poses").string());
+  ASSERT_TRUE(address);
+  Notes notes;
+  {
+    const auto socket = listen_for_poses(*address, BodyAxes::kRep103, notes);
+    ASSERT_TRUE(socket) << socket.error().text();
+    EXPECT_EQ(std::filesystem::status(address->socket).permissions(), std::filesystem::perms(0600));
+    EXPECT_FALSE(listen_for_poses(*address, BodyAxes::kRep103, notes)) << "somebody listens";
+    test::send_to_path(address->socket, "1 0 0 0 0 0 0 1\n");
+    EXPECT_EQ(notes.poses(1).size(), 1U);
+  }
+  EXPECT_FALSE(std::filesystem::exists(address->socket));
+  test::leave_dead_socket(address->socket);
+  EXPECT_TRUE(listen_for_poses(*address, BodyAxes::kRep103, notes));
+  test::write_file(address->socket, "no socket");
+  EXPECT_FALSE(listen_for_poses(*address, BodyAxes::kRep103, notes)) << "a file of the user's";
 }
 
 TEST(PoseSocket, says_that_a_port_is_taken_and_frees_its_own) {

@@ -5,9 +5,11 @@
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace swiftlet::test {
@@ -38,5 +40,26 @@ class UdpSender {
   int socket_;
   sockaddr_in address_{};
 };
+
+/// A datagram to a socket in the file system.
+inline void send_to_path(const std::string& path, std::string_view text) {
+  const int socket = ::socket(AF_UNIX, SOCK_DGRAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  (void)::sendto(socket, text.data(), text.size(), 0, reinterpret_cast<const sockaddr*>(&address),
+                 sizeof address);
+  ::close(socket);
+}
+
+/// What a program leaves that was killed while it listened.
+inline void leave_dead_socket(const std::string& path) {
+  const int socket = ::socket(AF_UNIX, SOCK_DGRAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  (void)::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  ::close(socket);
+}
 
 }  // namespace swiftlet::test

@@ -4,18 +4,39 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "swiftlet/source/live_keeper.hpp"
 #include "swiftlet/source/mounts.hpp"
 
 namespace swiftlet {
 
-/// Receives poses as text over UDP on the loopback address: a datagram holds one or more pose lines
-/// (see parse_pose_line()); lines that start with # say nothing. What cannot be read is told as an
-/// event (kBadPose), at most once a second. Its own thread delivers into the sink, which outlives
-/// it. Whoever wants poses from another machine forwards them, as with an ssh tunnel or a bridge.
+/// Where poses come to: a UDP port, or a datagram socket in the file system.
+struct PoseAddress {
+  std::string host = "127.0.0.1";    ///< IPv4; of the interface that listens
+  std::uint16_t port = 0;            ///< 0: the socket of the next line
+  std::filesystem::path socket{};    ///< for programs of the same user on this computer
+  std::filesystem::path key_file{};  ///< of the shared key; empty: anyone is believed
+
+  /// "poses on UDP port 5605"
+  [[nodiscard]] std::string title() const;
+};
+/// Reads "udp:PORT", "udp:ADDRESS:PORT" or "unix:PATH"; nullopt for anything else.
+[[nodiscard]] std::optional<PoseAddress> parse_pose_address(std::string_view text);
+
+/// Receives poses as text: a datagram holds one or more pose lines (see parse_pose_line()), and
+/// with a key two more (see PoseGuard); lines that start with # say nothing. What cannot be read,
+/// is forged or comes again is told as events (kBadPose, kForgedPose, kReplayedPose), each kind at
+/// most once a second with how many there were; so is a port that others than this computer reach
+/// without a key (kOpenPort). Its own thread delivers into the sink, which outlives it.
 ///
-/// Errors: kIo if the port is taken or not allowed.
+/// Errors: kIo if the port is taken or not allowed; those of load_pose_key().
+[[nodiscard]] Expected<LiveStreamPtr> listen_for_poses(const PoseAddress& address, BodyAxes axes,
+                                                       LiveSink& sink);
+/// On a UDP port of the loopback address, without a key.
 [[nodiscard]] Expected<LiveStreamPtr> listen_for_poses(std::uint16_t port, BodyAxes axes,
                                                        LiveSink& sink);
 

@@ -89,7 +89,7 @@ class RealsenseRecording final : public LiveRecording {
       : folder_(std::move(folder)),
         cameras_(request.rig.rig.cameras),
         sink_(cameras_.size()),
-        has_socket_(request.pose_port.has_value()) {}
+        has_socket_(request.poses.has_value()) {}
 
   Status start(const RealsenseDevicesPtr& devices, const RealsenseRequest& request) {
     if (has_socket_) {

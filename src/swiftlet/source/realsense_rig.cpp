@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "swiftlet/source/pose_socket.hpp"
 #include "swiftlet/source/realsense_rig_private.hpp"
 
 namespace swiftlet {
@@ -65,7 +64,7 @@ Expected<std::vector<RealsenseDepthInfo>> survey_realsense(RealsenseDevices& dev
     infos.push_back(prepared->info);
     taken[i] = std::move(*device);
   }
-  if (request.pose_port) return infos;
+  if (request.poses) return infos;
   if (auto tracker = find_tracker(devices); !tracker) return forward_error(std::move(tracker));
   return infos;
 }
@@ -83,8 +82,8 @@ Expected<std::unique_ptr<RealsenseRig>> RealsenseRig::start(RealsenseDevicesPtr 
                                                             LiveSink& sink, WrapRealsense wrap) {
   std::unique_ptr<RealsenseRig> rig(
       new RealsenseRig(std::move(devices), request, sink, std::move(wrap)));
-  if (request.pose_port) {
-    auto socket = listen_for_poses(*request.pose_port, request.rig.pose_axes, sink);
+  if (request.poses) {
+    auto socket = listen_for_poses(*request.poses, request.rig.pose_axes, sink);
     if (!socket) return forward_error(std::move(socket));
     rig->pose_socket_ = std::move(*socket);
   }
@@ -110,9 +109,9 @@ std::vector<LiveInstrument> RealsenseRig::instruments() {
                    [this, i] { return sink_.last_image(i); }});
   }
   const auto last_pose = [this] { return sink_.last_pose(); };
-  if (request_.pose_port) {
-    all.push_back({fmt::format("poses on UDP port {}", *request_.pose_port),
-                   [] { return std::make_unique<LiveStream>(); }, last_pose, false});
+  if (request_.poses) {
+    all.push_back(
+        {request_.poses->title(), [] { return std::make_unique<LiveStream>(); }, last_pose, false});
   } else {
     all.push_back({"T265", [this] { return connect_tracker(); }, last_pose});
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -14,6 +15,7 @@
 
 #include "swiftlet/source/frame_source.hpp"
 #include "swiftlet/source/live_keeper.hpp"
+#include "swiftlet/source/pose_socket.hpp"
 #include "swiftlet/source/realsense_devices_private.hpp"
 #include "swiftlet/source/realsense_driver_private.hpp"
 #include "swiftlet/source/rig_file.hpp"
@@ -24,7 +26,8 @@ namespace swiftlet {
 struct RealsenseRequest {
   RigDescription rig;  ///< the serial number of a camera is its `stream`; empty: any
   RealsenseProfile profile;
-  std::optional<std::uint16_t> pose_port;  ///< UDP; absent: a T265
+  std::optional<PoseAddress> poses;  ///< absent: of a T265
+  std::filesystem::path pose_key;    ///< see PoseAddress
   Nanoseconds patience = std::chrono::seconds(10);
   LiveKeeper::Options keeper{};
   std::string uri;

@@ -11,7 +11,6 @@
 #include <string>
 #include <utility>
 
-#include "swiftlet/base/number_text.hpp"
 #include "swiftlet/source/address_options.hpp"
 #include "swiftlet/source/live_rig.hpp"
 #include "swiftlet/source/realsense_rig_private.hpp"
@@ -25,8 +24,8 @@ namespace swiftlet {
 namespace {
 
 constexpr std::string_view kOwnOptions =
-    "profile=WIDTHxHEIGHT@FPS, laser_mw, preset, poses=udp:PORT, pose_axes=rep103|t265|optical, "
-    "wait_s";
+    "profile=WIDTHxHEIGHT@FPS, laser_mw, preset, poses=udp:PORT|udp:ADDRESS:PORT|unix:PATH, "
+    "pose_key=FILE, pose_axes=rep103|t265|optical, wait_s";
 
 /// "848x480@30"
 bool parse_profile(std::string_view text, RealsenseProfile& out) {
@@ -45,16 +44,15 @@ bool parse_profile(std::string_view text, RealsenseProfile& out) {
 }
 
 /// "udp:5605"
-bool parse_port(std::string_view text, RealsenseRequest& request) {
-  constexpr std::string_view kScheme = "udp:";
-  if (!text.starts_with(kScheme)) return false;
-  request.pose_port = number_from<std::uint16_t>(text.substr(kScheme.size()));
-  return request.pose_port && *request.pose_port > 0;
+bool parse_poses(std::string_view text, RealsenseRequest& request) {
+  request.poses = parse_pose_address(text);
+  return request.poses.has_value();
 }
 
 bool apply(std::string_view key, std::string_view value, RealsenseRequest& request) {
   if (key == "profile") return parse_profile(value, request.profile);
-  if (key == "poses") return parse_port(value, request);
+  if (key == "poses") return parse_poses(value, request);
+  if (key == "pose_key") return !(request.pose_key = value).empty();
   if (key == "pose_axes") {
     const auto axes = body_axes_from(value);
     request.rig.pose_axes = axes.value_or(BodyAxes::kRep103);
@@ -121,7 +119,12 @@ Expected<RealsenseRequest> parse_realsense(std::string_view rest) {
     if (!apply(key, value, request))
       return bad_option("realsense", key, value, fmt::format("{}, {}", kOwnOptions, kRigOptions));
   }
-  if (request.pose_port && !*rig_file) {
+  if (!request.pose_key.empty() && !request.poses) {
+    return fail(ErrorCode::kUsage, "realsense", "a key, but no poses from outside",
+                "write poses=udp:PORT, too");
+  }
+  if (request.poses) request.poses->key_file = request.pose_key;
+  if (request.poses && !*rig_file) {
     return fail(ErrorCode::kUsage, "realsense",
                 "nobody tells where the camera sits on what has the poses",
                 "describe the mount in a rig file and give it with --rig (docs/rig.md)");
@@ -140,7 +143,7 @@ Expected<FrameSourcePtr> open_realsense(RealsenseDevicesPtr devices,
   for (std::size_t i = 0; i < cameras.size() && cameras.size() > 1; ++i) {
     if (cameras[i].baseline_m == 0.0) cameras[i].baseline_m = (*infos)[i].baseline_m;
   }
-  SourceInfo info{request.uri, request.pose_port ? "+z" : "+y", std::nullopt, std::nullopt};
+  SourceInfo info{request.uri, request.poses ? "+z" : "+y", std::nullopt, std::nullopt};
   info.intrinsics = {IntrinsicsOrigin::kSdk, {}};
   if (infos->front().baseline_m > 0.0) info.baseline_m = infos->front().baseline_m;
   auto source = std::make_unique<RealsenseSource>(std::move(info), options);
