@@ -62,6 +62,39 @@ TEST(LiveRig, never_makes_a_driver_wait_and_counts_what_the_mapper_was_too_late_
   EXPECT_EQ(tally.of(FrameLoss::kOverload), 1U);
 }
 
+TEST(LiveRig, is_not_blinded_by_one_stamp_an_hour_ahead_nor_by_a_clock_that_is_set_back) {
+  LiveRig rig(kInfo, {.rig = {}, .queue = {.capacity = 1000}});
+  const auto fly = [&](int from_ms, int to_ms, int clock_ms) {
+    for (int t = from_ms; t < to_ms; t += 5) {
+      PoseSample pose = pose_at(t);
+      pose.stamp = ms(t + clock_ms);
+      rig.push(pose);
+      if (t % 35 == 0) rig.push(depth_at(t + clock_ms));
+    }
+  };
+  fly(0, 3500, 60'000);
+  rig.push(depth_at(3'600'000));
+  PoseSample wrong = pose_at(3500);
+  wrong.stamp = ms(3'600'000);
+  rig.push(wrong);
+  fly(3500, 7000, 60'000);
+  fly(7000, 10'500, 30'000);
+  rig.close();
+  std::size_t frames = 0;
+  std::optional<Stamp> last;
+  while (auto frame = rig.next().value()) {
+    EXPECT_TRUE(!last || *last < frame->stamp);
+    last = frame->stamp;
+    ++frames;
+  }
+  EXPECT_GE(frames, 300U - 3U);
+  FrameTally tally = rig.tally();
+  EXPECT_EQ(tally.of(FrameLoss::kBadStamp), 1U);
+  EXPECT_EQ(tally.poses_refused, 1U);
+  EXPECT_EQ(tally.pose_clock.back, 1U);
+  EXPECT_EQ(tally.pose_clock.last_back, milliseconds(30'000 - 5));
+}
+
 TEST(LiveRig, gives_up_when_the_camera_is_silent_for_too_long) {
   LiveRig rig(kInfo, {.rig = {}, .queue = {}, .patience = milliseconds(20)});
   const auto frame = rig.next();

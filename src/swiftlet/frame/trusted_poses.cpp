@@ -148,6 +148,20 @@ void TrustedPoses::start_anew() {
   held_.clear();
 }
 
+void TrustedPoses::restart_clock(Stamp first) {
+  ++mark_.segment;
+  ++clock_restarts_;
+  track_.clear();
+  held_.clear();
+  newest_.reset();
+  if (recent_.empty()) return;
+  // How long it took is not known: as after a silence that is too long to measure a jump in.
+  Pose last = recent_.back();
+  last.stamp = first - options_.track.max_gap - Nanoseconds(1);
+  recent_.clear();
+  recent_.push_back(last);
+}
+
 void TrustedPoses::hold(const Pose& raw) {
   if (!held_.empty() && !is_plausible_after(held_, raw)) {
     refuse(PoseRefusal::kOutlier, held_.size());

@@ -25,10 +25,11 @@ enum class PoseRefusal : std::uint8_t {
   kOutlier,         ///< where the body cannot have been, and nothing after it was there either
   kDuplicateStamp,  ///< there is a pose of that time
   kTooOld,          ///< before everything that is remembered
+  kBadStamp,        ///< its time agrees neither with the poses before it nor with those after
 };
-inline constexpr std::array<std::string_view, 7> kPoseRefusalNames{
+inline constexpr std::array<std::string_view, 8> kPoseRefusalNames{
     "not_finite", "not_unit",        "low_confidence", "clock_mismatch",
-    "outlier",    "duplicate_stamp", "too_old"};
+    "outlier",    "duplicate_stamp", "too_old",        "bad_stamp"};
 
 /// What to do when a pose source has recognised a place and corrects itself at once.
 enum class JumpPolicy : std::uint8_t {
@@ -72,6 +73,14 @@ class TrustedPoses {
   /// The source was switched off and on: its next pose is of another world, wherever it seems to
   /// be.
   void start_anew();
+  /// The clock of the source was set: its next pose, stamped `first`, is later than all before,
+  /// whatever its stamp says. Nothing is remembered but where the body was; if it cannot have come
+  /// from there, a new epoch begins.
+  void restart_clock(Stamp first);
+  /// How many samples were refused by their stamps alone, before they came here.
+  void note_bad_stamps(std::size_t count) {
+    refused_[static_cast<std::size_t>(PoseRefusal::kBadStamp)] = count;
+  }
 
   /// See PoseTrack::find() and nearest().
   [[nodiscard]] const PoseTrack& track() const { return track_; }
@@ -83,7 +92,7 @@ class TrustedPoses {
   [[nodiscard]] const std::array<std::size_t, kPoseRefusalNames.size()>& refused() const {
     return refused_;
   }
-  [[nodiscard]] std::size_t jumps() const { return mark_.segment; }
+  [[nodiscard]] std::size_t jumps() const { return mark_.segment - clock_restarts_; }
 
  private:
   struct Pose {
@@ -108,6 +117,7 @@ class TrustedPoses {
   std::deque<Pose> held_;    // candidates after a possible jump, raw
   Transform<World, World> T_world_source_;  // takes the jumps out
   PoseMark mark_;
+  std::uint32_t clock_restarts_ = 0;
   std::optional<Stamp> newest_;
   ClockDomain clock_ = ClockDomain::kUnspecified;
   bool has_clock_ = false;

@@ -19,6 +19,7 @@
 #include "swiftlet/source/intrinsics_note.hpp"
 #include "swiftlet/source/rig_event.hpp"
 #include "swiftlet/source/rig_facts.hpp"
+#include "swiftlet/source/stamp_judge.hpp"
 
 namespace swiftlet {
 
@@ -36,10 +37,11 @@ enum class FrameLoss : std::uint8_t {
   kOverload,       ///< it came while the mapper was busy with others (real time only)
   kImageMissing,   ///< the recording names it, but its file is not there
   kImageUnreadable,  ///< its file is damaged, of another kind, or of another size than the first
+  kBadStamp,         ///< its time agrees neither with the images before it nor with those after
 };
-inline constexpr std::array<std::string_view, 10> kFrameLossNames{
-    "no_pose",    "pose_gap",       "pose_refused", "out_of_order",  "pose_jump",
-    "pose_stale", "clock_mismatch", "overload",     "image_missing", "image_unreadable"};
+inline constexpr std::array<std::string_view, 11> kFrameLossNames{
+    "no_pose",        "pose_gap", "pose_refused",  "out_of_order",     "pose_jump", "pose_stale",
+    "clock_mismatch", "overload", "image_missing", "image_unreadable", "bad_stamp"};
 
 /// Frames that came out of a source, and those that did not, by reason.
 struct FrameTally {
@@ -49,7 +51,9 @@ struct FrameTally {
   std::array<std::size_t, kPoseRefusalNames.size()> poses_refused_by{};
   std::size_t pose_jumps = 0;    ///< times the pose source corrected itself at once
   std::size_t stale_alarms = 0;  ///< times the tracker fell silent while images came
-  RigEventCounts events{};       ///< of live instruments
+  RigEventCounts events{};       ///< of instruments
+  ClockSteps pose_clock{};       ///< times the clock of the poses was set
+  ClockSteps image_clock{};      ///< likewise, of the camera where it was most often
 
   std::size_t& of(FrameLoss loss) { return lost[static_cast<std::size_t>(loss)]; }
 };
@@ -64,6 +68,7 @@ struct SourceInfo {
   IntrinsicsNote intrinsics{};
   /// The unit of depth [m] if nobody told it and the source took that of its layout.
   std::optional<double> assumed_depth_unit_m{};
+  std::vector<std::string> choices{};  ///< what was chosen of a recording, one sentence each
 };
 
 /// Where frames come from. Poses are in our world (z up), whatever the recording's own axes.

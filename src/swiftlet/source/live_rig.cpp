@@ -21,6 +21,8 @@ LiveRig::LiveRig(SourceInfo info, const Options& options)
     : info_(std::move(info)),
       options_(options),
       rig_(options.rig),
+      gates_(options.rig.cameras.size()),
+      image_clocks_(options.rig.cameras.size()),
       last_images_(options.rig.cameras.size()) {
   SWIFTLET_REQUIRE(options.queue.capacity >= 1, "a queue holds a frame");
   facts_ = rig_.facts();
@@ -37,11 +39,31 @@ void LiveRig::collect() {
   }
 }
 
+void LiveRig::push_believed_poses() {
+  while (const auto pose = gates_.poses.pop()) {
+    const std::size_t clocks = gates_.poses.steps().back;
+    if (std::exchange(pose_clocks_, clocks) != clocks) rig_.restart_pose_clock(pose->stamp);
+    rig_.push(*pose);
+  }
+  collect();
+}
+
+void LiveRig::push_believed_images(std::size_t camera) {
+  StampGate<DepthFrame>& gate = gates_.cameras[camera];
+  while (auto depth = gate.pop()) {
+    const std::size_t clocks = gate.steps().back;
+    if (std::exchange(image_clocks_[camera], clocks) != clocks)
+      rig_.restart_camera_clock(camera, depth->stamp);
+    rig_.push(std::move(*depth));
+  }
+  collect();
+}
+
 void LiveRig::push(const PoseSample& pose) {
   const std::lock_guard lock(mutex_);
   last_pose_ = HostTime::clock::now();
-  rig_.push(pose);
-  collect();
+  gates_.poses.push(pose);
+  push_believed_poses();
 }
 
 void LiveRig::push(DepthFrame depth) {
@@ -50,13 +72,14 @@ void LiveRig::push(DepthFrame depth) {
   const HostTime now = HostTime::clock::now();
   last_images_[depth.camera] = now;
   if (!depth.seen_at) depth.seen_at = now;
-  rig_.push(std::move(depth));
-  collect();
+  const std::size_t camera = depth.camera;
+  gates_.cameras[camera].push(std::move(depth));
+  push_believed_images(camera);
 }
 
 void LiveRig::note(RigEvent event) {
   const std::lock_guard lock(mutex_);
-  ++event_counts_[static_cast<std::size_t>(event.kind)];
+  event_counts_[static_cast<std::size_t>(event.kind)] += event.count;
   events_.add(std::move(event));
 }
 
@@ -83,12 +106,19 @@ void LiveRig::start_poses_anew() {
 void LiveRig::close() {
   const std::lock_guard lock(mutex_);
   is_closed_ = true;
+  gates_.poses.finish();
+  push_believed_poses();
+  for (std::size_t i = 0; i < gates_.cameras.size(); ++i) {
+    gates_.cameras[i].finish();
+    push_believed_images(i);
+  }
   rig_.finish();
   collect();
   changed_.notify_all();
 }
 
 void LiveRig::take_stock() {
+  gates_.report_to(rig_);
   tally_ = rig_.tally();
   tally_.of(FrameLoss::kOverload) += overloaded_;
   tally_.delivered = delivered_;

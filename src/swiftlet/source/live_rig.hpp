@@ -15,6 +15,7 @@
 #include "swiftlet/source/live_sink.hpp"
 #include "swiftlet/source/real_time_source.hpp"
 #include "swiftlet/source/rig.hpp"
+#include "swiftlet/source/rig_gates.hpp"
 
 namespace swiftlet {
 
@@ -54,6 +55,8 @@ class LiveRig final : public FrameSource, public LiveSink {
 
  private:
   // REQUIRES: the lock.
+  void push_believed_poses();
+  void push_believed_images(std::size_t camera);
   void collect();
   void take_stock();
 
@@ -67,6 +70,9 @@ class LiveRig final : public FrameSource, public LiveSink {
   mutable std::mutex mutex_;  // of all that follows
   std::condition_variable changed_;
   Rig rig_;
+  RigGates gates_;
+  std::size_t pose_clocks_ = 0;            // times that the rig was told of a clock set back
+  std::vector<std::size_t> image_clocks_;  // likewise, by camera
   std::deque<Frame> queue_;
   RigEventList events_;
   RigEventCounts event_counts_{};

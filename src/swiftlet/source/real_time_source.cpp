@@ -72,6 +72,7 @@ class RealTimeSource final : public FrameSource {
 
  private:
   using Clock = HostTime::clock;
+  static constexpr Nanoseconds kLongestWait = std::chrono::minutes(1);
   static constexpr Nanoseconds kGlance = std::chrono::milliseconds(100);  // at whether to go on
 
   /// REQUIRES: the lock.
@@ -90,10 +91,13 @@ class RealTimeSource final : public FrameSource {
   void play() {
     std::optional<Stamp> first;
     Clock::time_point start;
+    Stamp previous;
     while (true) {
       auto frame = source_->next();
       if (!frame || !*frame) return finish(std::move(frame));
-      if (!first) {
+      const Nanoseconds step = first ? (*frame)->stamp - previous : Nanoseconds(0);
+      previous = (*frame)->stamp;
+      if (!first || step < Nanoseconds(0) || step > kLongestWait) {  // or the clock was set
         first = (*frame)->stamp;
         start = Clock::now();
       }

@@ -10,6 +10,12 @@
 #include "swiftlet/base/contract.hpp"
 
 namespace swiftlet {
+namespace {
+
+// Between the last frame before a clock was set back and the first after, for nobody knows better.
+constexpr Nanoseconds kSetClockTakes = std::chrono::milliseconds(100);
+
+}  // namespace
 
 Rig::Rig(const Options& options)
     : options_(options),
@@ -24,11 +30,47 @@ Rig::Rig(const Options& options)
 void Rig::push(const PoseSample& pose) {
   facts_.poses.note(pose);
   poses_.push(pose);
+  count_refused_poses();
+  tally_.pose_jumps = poses_.jumps();
+  watch_staleness();
+}
+
+void Rig::count_refused_poses() {
   tally_.poses_refused_by = poses_.refused();
   tally_.poses_refused =
       std::accumulate(poses_.refused().begin(), poses_.refused().end(), std::size_t{0});
-  tally_.pose_jumps = poses_.jumps();
-  watch_staleness();
+}
+
+void Rig::note_stamps(const StampTally& stamps) {
+  tally_.of(FrameLoss::kBadStamp) = stamps.images_refused;
+  tally_.pose_clock = stamps.pose_clock;
+  tally_.image_clock = stamps.image_clock;
+  poses_.note_bad_stamps(stamps.poses_refused);
+  count_refused_poses();
+}
+
+template <class IsOld>
+void Rig::lose_waiting(IsOld is_old) {
+  tally_.of(FrameLoss::kNoPose) += std::erase_if(waiting_, is_old);
+  newest_depth_.reset();
+  for (const DepthFrame& depth : waiting_)
+    newest_depth_ = newest_depth_ ? std::max(*newest_depth_, depth.stamp) : depth.stamp;
+}
+
+void Rig::restart_pose_clock(Stamp first) {
+  poses_.restart_clock(first);
+  lose_waiting([](const DepthFrame&) { return true; });
+  std::ranges::fill(last_stamp_, std::nullopt);
+  last_decided_.reset();
+  last_delivered_.reset();
+  is_out_offset_known_ = false;
+}
+
+void Rig::restart_camera_clock(std::size_t camera, Stamp first) {
+  lose_waiting(
+      [&](const DepthFrame& depth) { return depth.camera == camera && depth.stamp >= first; });
+  last_stamp_[camera].reset();
+  last_decided_ = last_delivered_;
 }
 
 void Rig::push(DepthFrame depth) {
@@ -97,7 +139,10 @@ Frame Rig::posed(DepthFrame depth, const TrackedPose& pose) {
       mask.emplace(*options_.body_box, camera.T_body_camera, depth.intrinsics);
     mask->clear(depth.depth);
   }
-  return Frame{depth.stamp,       std::move(depth.depth),
+  if (!std::exchange(is_out_offset_known_, true) && last_out_)
+    out_offset_ = *last_out_ + kSetClockTakes - depth.stamp;
+  last_out_ = depth.stamp + out_offset_;
+  return Frame{*last_out_,        std::move(depth.depth),
                depth.intrinsics,  pose.T_world_body * camera.T_body_camera,
                depth.camera,      pose.mark.epoch,
                camera.baseline_m, depth.seen_at};
@@ -124,6 +169,7 @@ std::optional<Frame> Rig::pop() {
       continue;
     }
     ++tally_.delivered;
+    last_delivered_ = last_decided_;
     return posed(std::move(depth), *pose);
   }
   return std::nullopt;

@@ -52,6 +52,13 @@ struct RigOptions {
   Nanoseconds stale_after = std::chrono::milliseconds(500);
 };
 
+/// What the gates before a rig have seen of its stamps (RigGates).
+struct StampTally {
+  std::size_t images_refused = 0;
+  std::size_t poses_refused = 0;
+  ClockSteps pose_clock{}, image_clock{};
+};
+
 /// Joins the depth images of one to eight cameras with a stream of poses into posed frames: the one
 /// path that simulated, recorded and live rigs share. An image waits until a pose at or after its
 /// time has come, and until no other camera can deliver an earlier one; then it gets the pose
@@ -71,6 +78,12 @@ class Rig {
   void push(const PoseSample& pose);
   /// The pose source was switched off and on: a new epoch begins with its next pose.
   void start_poses_anew() { poses_.start_anew(); }
+  /// The clock of the poses, or of one camera, was set back: its next sample is stamped `first`.
+  /// What waits for a pose of the time before is lost (counted), what was mapped is not mapped
+  /// again. Frames are later than those before all the same: their stamps go on.
+  void restart_pose_clock(Stamp first);
+  void restart_camera_clock(std::size_t camera, Stamp first);
+  void note_stamps(const StampTally& stamps);
   /// The images of one camera come in time order; one that does not is lost (counted).
   /// REQUIRES: depth.camera is one of the rig's.
   void push(DepthFrame depth);
@@ -101,6 +114,9 @@ class Rig {
   [[nodiscard]] std::optional<FrameLoss> loss_of(const DepthFrame& depth, PoseMiss miss) const;
   [[nodiscard]] Frame posed(DepthFrame depth, const TrackedPose& pose);
   void watch_staleness();
+  void count_refused_poses();
+  template <class IsOld>
+  void lose_waiting(IsOld is_old);
 
   Options options_;
   TrustedPoses poses_;
@@ -108,7 +124,11 @@ class Rig {
   std::vector<std::optional<Stamp>> last_stamp_;   // by camera
   std::vector<std::optional<BodyBoxMask>> masks_;  // by camera
   std::optional<Order> last_decided_;
+  std::optional<Order> last_delivered_;  // by this clock of the poses
   std::optional<Stamp> newest_depth_;
+  std::optional<Stamp> last_out_;  // of the newest frame
+  Nanoseconds out_offset_{0};      // of frames' stamps against images': a set clock is taken out
+  bool is_out_offset_known_ = true;
   FrameTally tally_;
   RigFacts facts_;
   bool is_stale_ = false;

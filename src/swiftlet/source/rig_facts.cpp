@@ -13,19 +13,27 @@ void StreamFacts::note(Stamp stamp, ClockDomain clock) {
   ++samples;
   ++clocks[static_cast<std::size_t>(clock)];
   if (previous_ && stamp <= *previous_) ++backward;
-  if (previous_) longest_gap = std::max(longest_gap, stamp - *previous_);
+  constexpr Nanoseconds kSetAhead = std::chrono::hours(1);  // no silence is that long
+  if (previous_ && stamp > *previous_ && stamp - *previous_ < kSetAhead) {
+    longest_gap = std::max(longest_gap, stamp - *previous_);
+    passed_ += stamp - *previous_;
+  }
   previous_ = stamp;
   first = first ? std::min(*first, stamp) : stamp;
   last = last ? std::max(*last, stamp) : stamp;
 }
 
 double StreamFacts::rate_hz() const {
-  const double duration_s = seconds(duration());
+  const double duration_s = seconds(passed_);
   return samples > 1 && duration_s > 0.0 ? static_cast<double>(samples - 1) / duration_s : 0.0;
 }
 
 void CameraFacts::note(const DepthFrame& depth) {
   StreamFacts::note(depth.stamp, depth.clock);
+  if (intrinsics && !(*intrinsics == depth.intrinsics)) {
+    ++intrinsics_changes;
+    if (!intrinsics_changed) intrinsics_changed = depth.stamp;
+  }
   intrinsics = depth.intrinsics;
   unit_m = depth.depth.unit_m;
 }

@@ -19,22 +19,25 @@ namespace swiftlet {
 struct StreamFacts {
   std::size_t samples = 0;
   std::optional<Stamp> first, last;  ///< the earliest and the latest
-  Nanoseconds longest_gap{0};        ///< between neighbours in order
+  Nanoseconds longest_gap{0};        ///< between neighbours in order, up to an hour
   std::size_t backward = 0;          ///< samples whose time is not after that of the one before
   std::array<std::size_t, kClockDomainNames.size()> clocks{};  ///< samples by ClockDomain
 
   void note(Stamp stamp, ClockDomain clock);
-  /// Samples a second over the whole; 0 for fewer than two.
+  /// Samples a second, without the time that a set clock skips; 0 for fewer than two.
   [[nodiscard]] double rate_hz() const;
   [[nodiscard]] Nanoseconds duration() const { return first ? *last - *first : Nanoseconds(0); }
 
  private:
   std::optional<Stamp> previous_;
+  Nanoseconds passed_{0};  // between neighbours, but where the clock was set
 };
 
 struct CameraFacts : StreamFacts {
   std::optional<PinholeIntrinsics> intrinsics{};  ///< of the newest image
   float unit_m = 0.0F;                            ///< of its raw depth
+  std::size_t intrinsics_changes = 0;             ///< times they were others than before
+  std::optional<Stamp> intrinsics_changed{};      ///< the first time
 
   void note(const DepthFrame& depth);
 };
