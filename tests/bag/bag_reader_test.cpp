@@ -176,5 +176,26 @@ TEST(Bag, packed_by_bzip2_is_read_too_and_a_bomb_stops_at_its_promise) {
   EXPECT_TRUE(unpack_chunk("bz2", as_bytes(packed.substr(0, size / 2)), 300'000, out));
 }
 
+TEST(Bag, of_bzip2_bombs_is_refused_before_it_takes_its_time) {
+  const std::string zeros(8U << 20U, '\0');
+  std::string packed(10'000, '\0');
+  auto size = static_cast<unsigned>(packed.size());
+  ASSERT_EQ(BZ2_bzBuffToBuffCompress(packed.data(), &size, const_cast<char*>(zeros.data()),
+                                     static_cast<unsigned>(zeros.size()), 9, 0, 0),
+            BZ_OK);
+  packed.resize(size);
+  std::string bag = test::BagWriter().bag();
+  for (int i = 0; i < 1000; ++i) {
+    bag += test::BagWriter::record(
+        test::BagWriter::field("op", "\x05") + test::BagWriter::field("compression", "bz2") +
+            test::BagWriter::field(
+                "size", test::Bytes().add(static_cast<std::uint32_t>(zeros.size())).text()),
+        packed);
+  }
+  const std::string error = read_all(bag).error;
+  EXPECT_THAT(error, HasSubstr("bzip2"));
+  EXPECT_THAT(error, HasSubstr("rosbag decompress"));
+}
+
 }  // namespace
 }  // namespace swiftlet

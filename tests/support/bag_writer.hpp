@@ -7,6 +7,7 @@
 #include <lz4frame.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -132,19 +133,32 @@ class BagWriter {
       .text();
 }
 
+/// What a CameraInfo tells beside the pinhole K of the middle.
+struct InfoExtras {
+  Stamp stamp{};
+  double cx = -1.0, cy = -1.0;  ///< negative: in the middle
+  std::array<std::uint32_t, 2> binning{};
+  std::array<std::uint32_t, 4> region{};  ///< x, y, height, width
+};
+
 /// sensor_msgs/CameraInfo with the pinhole K.
 [[nodiscard]] inline std::string info_message(int width, int height, double f_px,
-                                              const std::vector<double>& D = {}) {
+                                              const std::vector<double>& D = {},
+                                              const InfoExtras& extras = {}) {
   Bytes bytes;
-  bytes.header(0, {}, "depth_optical")
+  bytes.header(0, extras.stamp, "depth_optical")
       .add(static_cast<std::uint32_t>(height))
       .add(static_cast<std::uint32_t>(width))
       .string("plumb_bob")
       .add(static_cast<std::uint32_t>(D.size()));
   for (const double d : D) bytes.add(d);
-  for (const double k : {f_px, 0.0, 0.5 * width, 0.0, f_px, 0.5 * height, 0.0, 0.0, 1.0})
-    bytes.add(k);
-  return bytes.zeros(21 * sizeof(double) + 8 + 17).text();
+  const double cx = extras.cx < 0.0 ? 0.5 * width : extras.cx;
+  const double cy = extras.cy < 0.0 ? 0.5 * height : extras.cy;
+  for (const double k : {f_px, 0.0, cx, 0.0, f_px, cy, 0.0, 0.0, 1.0}) bytes.add(k);
+  bytes.zeros(21 * sizeof(double));
+  for (const std::uint32_t value : extras.binning) bytes.add(value);
+  for (const std::uint32_t value : extras.region) bytes.add(value);
+  return bytes.zeros(1).text();
 }
 
 /// nav_msgs/Odometry.

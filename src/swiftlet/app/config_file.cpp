@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "swiftlet/app/config_value.hpp"
-#include "swiftlet/app/nearest_name.hpp"
+#include "swiftlet/base/nearest_name.hpp"
 #include "swiftlet/file/file_content.hpp"
 #include "swiftlet/file/yaml_document_private.hpp"
 

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/nearest_name.hpp"
 #include "swiftlet/app/visible_text.hpp"
+#include "swiftlet/base/nearest_name.hpp"
 
 namespace swiftlet::app {
 namespace {

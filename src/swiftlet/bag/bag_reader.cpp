@@ -16,12 +16,29 @@ namespace swiftlet {
 namespace {
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
+constexpr std::array<std::string_view, 2> kAllMagic{"#ROSBAG V", "#ROSRECORD"};
 constexpr std::uint32_t kMaxHeaderBytes = 64U << 10U;     // real ones have some 100 bytes
 constexpr std::uint32_t kMaxConnectionBytes = 4U << 20U;  // holds the definition of its type
+// bzip2 packs zeros 10 million times and unpacks them in a minute a gigabyte; depth, 3 to 20 times.
+constexpr std::uint64_t kFreeBz2Bytes = 16U << 20U;
+constexpr std::uint64_t kMaxBz2Growth = 64;
 constexpr std::size_t kMaxConnections = 65536;
 constexpr std::size_t kMaxNameBytes = 4096;
 
 }  // namespace
+
+bool has_bag_magic(std::span<const std::byte> start) {
+  const std::string_view text = ByteCursor::text_of(start);
+  return std::ranges::any_of(kAllMagic, [&](auto magic) { return text.starts_with(magic); });
+}
+
+bool is_bag_file(const std::filesystem::path& path) {
+  const auto bytes = open_file_bytes(path);
+  if (!bytes) return false;
+  std::array<std::byte, kMagic.size()> start{};
+  const auto head = std::span(start).first(std::min<std::uint64_t>(start.size(), (*bytes)->size()));
+  return (*bytes)->read(0, head).has_value() && has_bag_magic(head);
+}
 
 tl::unexpected<Error> BagReader::corrupt(std::uint64_t offset, std::string what) {
   position_ = bytes_->size();  // nothing more is read
@@ -40,7 +57,7 @@ Expected<BagReader> BagReader::open(ByteSourcePtr bytes) {
   if (!read) return forward_error(std::move(read));
   const std::string_view start(magic.data(), present);
   if (start != kMagic) {
-    if (start.starts_with("#ROSBAG V") || start.starts_with("#ROSRECORD"))
+    if (has_bag_magic(std::as_bytes(std::span(start))))
       return fail(ErrorCode::kUnsupported, name, "it is a ROS bag of another version than 2.0",
                   "convert it with `rosbag fix`");
     return fail(ErrorCode::kCorruptInput, name, "it is no ROS bag",
@@ -78,12 +95,27 @@ Expected<BagReader::FileRecord> BagReader::read_record() {
   return FileRecord{*fields, offset, data_offset, *data_bytes};
 }
 
+Status BagReader::check_budget(const FileRecord& record) {
+  if (record.fields.compression != "bz2") return Done{};
+  bz2_packed_ += record.data_bytes;
+  bz2_unpacked_ += *record.fields.size;
+  const std::uint64_t budget = kFreeBz2Bytes + kMaxBz2Growth * bz2_packed_;
+  if (bz2_unpacked_ <= budget) return Done{};
+  auto fault = corrupt(record.offset,
+                       fmt::format("{} bytes of bzip2 so far would unpack to {}, more than images "
+                                   "do and than this reader takes the time for",
+                                   bz2_packed_, bz2_unpacked_));
+  fault.value().remedy = "if it is meant, unpack it with `rosbag decompress` first";
+  return fault;
+}
+
 Status BagReader::unpack(const FileRecord& record) {
   if (!record.fields.size) return corrupt(record.offset, "a chunk does not tell its size");
   if (record.data_bytes > kMaxChunkBytes)
     return corrupt(
         record.offset,
         fmt::format("a chunk of {} bytes is larger than any camera writes", record.data_bytes));
+  if (auto affordable = check_budget(record); !affordable) return affordable;
   const std::string compression(record.fields.compression);  // header_ is used again
   packed_.resize(record.data_bytes);
   if (auto read = bytes_->read(record.data_offset, packed_); !read) return read;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -36,11 +37,17 @@ struct BagMessage {
   std::uint64_t offset;  ///< of its chunk in the file, for messages about it
 };
 
+/// Whether bytes begin as a ROS bag does, of this version of the format or another.
+[[nodiscard]] bool has_bag_magic(std::span<const std::byte> start);
+/// The same of a file; false if it cannot be read.
+[[nodiscard]] bool is_bag_file(const std::filesystem::path& path);
+
 /// Reads a ROS bag (format 2.0) from its beginning to its end, without its index: recordings that
 /// were never closed can be read as far as they go.
 ///
 /// Memory: one chunk packed and one unpacked, at most kMaxChunkBytes each, and the names of the
-/// topics. Nothing is allocated on the word of the file alone.
+/// topics. Nothing is allocated on the word of the file alone. Time: that of the file's size; a
+/// bzip2 that grows more than 64 times, beyond the first 16 MiB, is refused.
 /// Source: wiki.ros.org/Bags/Format/2.0.
 class BagReader {
  public:
@@ -73,6 +80,7 @@ class BagReader {
   };
   [[nodiscard]] Expected<FileRecord> read_record();
   [[nodiscard]] Expected<bool> read_chunk();  // false at the end of the file
+  [[nodiscard]] Status check_budget(const FileRecord& record);
   [[nodiscard]] Status unpack(const FileRecord& record);
   [[nodiscard]] Expected<std::optional<BagMessage>> next_in_chunk();
   [[nodiscard]] Status add_connection(const BagFields& header, std::span<const std::byte> data,
@@ -82,7 +90,8 @@ class BagReader {
   ByteSourcePtr bytes_;
   std::uint64_t position_ = 0;
   std::uint64_t chunks_ = 0;
-  std::array<std::uint64_t, 3> by_compression_{};  // none, lz4, bz2
+  std::array<std::uint64_t, 3> by_compression_{};    // none, lz4, bz2
+  std::uint64_t bz2_packed_ = 0, bz2_unpacked_ = 0;  // bytes so far
   std::map<std::uint32_t, BagConnection> connections_;
   std::vector<std::byte> header_, packed_, chunk_;
   std::size_t chunk_position_ = 0;

@@ -76,7 +76,13 @@ std::optional<CameraInfo> parse_camera_info(Bytes bytes) {
   if (coefficients > kMaxDistortion) return std::nullopt;
   for (std::uint32_t i = 0; i < coefficients; ++i) info.D.push_back(cursor.read<double>());
   info.K = cursor.read_array<double, 9>();
-  if (!cursor.is_good()) return std::nullopt;  // R, P, binning and region are of no use here
+  if (!cursor.is_good()) return std::nullopt;
+  cursor.skip((9 + 12) * sizeof(double));  // R and P are of no use here
+  const auto [bin_x, bin_y, x, y, height, width] = cursor.read_array<std::uint32_t, 6>();
+  if (!cursor.is_good()) return info;  // a short one, of a writer that stops at K
+  info.binning_x = bin_x;
+  info.binning_y = bin_y;
+  info.region = {x, y, height, width};
   return info;
 }
 

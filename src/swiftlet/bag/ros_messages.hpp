@@ -40,7 +40,13 @@ struct Image {
   std::optional<float> depth_unit_m;
 };
 
-/// sensor_msgs/CameraInfo, up to K.
+/// The part of a sensor that an image shows [px]; all 0: the whole.
+struct Region {
+  std::uint32_t x = 0, y = 0, height = 0, width = 0;
+  friend bool operator==(const Region&, const Region&) = default;
+};
+
+/// sensor_msgs/CameraInfo, without R and P.
 struct CameraInfo {
   Header header;
   std::uint32_t width = 0;
@@ -48,6 +54,14 @@ struct CameraInfo {
   std::string_view distortion_model;
   std::vector<double> D;
   std::array<double, 9> K{};
+  std::uint32_t binning_x = 0, binning_y = 0;  ///< pixels of the sensor a pixel; 0 as 1
+  Region region{};
+
+  /// Whether all but the header is the same.
+  [[nodiscard]] bool is_same_camera(const CameraInfo& other) const {
+    return width == other.width && height == other.height && D == other.D && K == other.K &&
+           binning_x == other.binning_x && binning_y == other.binning_y && region == other.region;
+  }
 };
 
 /// geometry_msgs/Pose and Transform, which are stored alike.

@@ -9,7 +9,9 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "swiftlet/bag/bag_reader.hpp"
 #include "swiftlet/source/bag_streams.hpp"
@@ -40,9 +42,22 @@ template <class Visit>
                      message.connection->topic);
 }
 
-/// The error for a bag without what was asked for; names what there is instead.
+/// The error for a bag without what was asked for; names what there is instead, and what is nearest
+/// to what the user has typed.
 [[nodiscard]] tl::unexpected<Error> no_such_topic(const BagReader& reader, std::string_view what,
-                                                  std::string_view remedy);
+                                                  std::string_view remedy,
+                                                  std::string_view typed = {});
+
+/// A name of ROS without the slash that some write before it: "/base_link" is base_link.
+[[nodiscard]] inline std::string_view plain_name(std::string_view name) {
+  return name.substr(name.starts_with('/') ? 1 : 0);
+}
+[[nodiscard]] inline bool is_same_name(std::string_view a, std::string_view b) {
+  return plain_name(a) == plain_name(b);
+}
+/// "did you mean base_link? It has base_link, camera_link"
+[[nodiscard]] std::string names_instead(std::string_view typed,
+                                        const std::vector<std::string>& known);
 
 // The two kinds of bags, each behind the same two doors. nullopt: it is a bag of the other kind.
 [[nodiscard]] Expected<std::optional<BagDepth>> open_realsense_depth(

@@ -112,7 +112,8 @@ Status find_mount(const BagDepth& depth, const BagPoses& poses, BagRequest& requ
     return fail(ErrorCode::kNotFound, file,
                 fmt::format("/tf_static does not tell where the camera '{}' sits on '{}'",
                             depth.frame_id, poses.child_frame),
-                "describe the mount in a rig file and give it with --rig (docs/rig.md)");
+                "name the vehicle's own frame with --body-frame, or describe the mount in a rig "
+                "file and give it with --rig (docs/rig.md)");
   }
   request.rig.rig.cameras.front().T_body_camera = **mount;
   return Done{};
@@ -143,8 +144,10 @@ Expected<FrameSourcePtr> open_bag_source(std::string_view rest) {
     }
     if (rig.cameras.size() > 1 && rig.cameras[i].baseline_m == 0.0)
       rig.cameras[i].baseline_m = depth->baseline_m.value_or(0.0);
+    info.choices.push_back(depth->told);
     streams.push_back(std::move(depth->stream));
   }
+  info.choices.push_back(poses->told);
   return std::make_unique<JoinedSource>(std::move(info), std::move(streams),
                                         std::move(poses->stream), rig);
 }

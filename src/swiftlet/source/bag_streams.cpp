@@ -6,11 +6,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <set>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "swiftlet/bag/ros_messages.hpp"
+#include "swiftlet/base/nearest_name.hpp"
 #include "swiftlet/source/bag_scan.hpp"
 #include "swiftlet/source/frame_tree.hpp"
 
@@ -20,26 +25,60 @@ namespace {
 // Static transforms are recorded when the recorder starts; a chunk is about one image.
 constexpr std::uint64_t kChunksWithStatics = 200;
 
-std::string without_slash(std::string frame) {
-  if (frame.starts_with('/')) frame.erase(0, 1);  // tf1 wrote "/base_link" for base_link
-  return frame;
+/// Depth that a plain reader cannot read: PNG or RVL behind a header of image_transport.
+bool is_compressed_depth(const BagConnection& connection) {
+  return connection.type == "sensor_msgs/CompressedImage" &&
+         connection.topic.ends_with("/compressedDepth");
+}
+
+/// Whether a file is text, by its first bytes: neither zeros nor a bag.
+Expected<bool> is_text(const std::filesystem::path& path) {
+  auto bytes = open_file_bytes(path);
+  if (!bytes) return forward_error(std::move(bytes));
+  std::array<std::byte, 512> start{};
+  const auto head = std::span(start).first(std::min<std::uint64_t>(512, (*bytes)->size()));
+  if (auto read = (*bytes)->read(0, head); !read) return forward_error(std::move(read));
+  return !has_bag_magic(head) && std::ranges::find(head, std::byte{0}) == head.end();
 }
 
 }  // namespace
 
+std::string names_instead(std::string_view typed, const std::vector<std::string>& known) {
+  constexpr std::size_t kMost = 20;
+  const auto nearest = nearest_name(typed, known);
+  const std::size_t shown = std::min(known.size(), kMost);
+  return fmt::format("{}it has {}{}", nearest ? "did you mean " + *nearest + "? " : "",
+                     fmt::join(std::span(known).first(shown), ", "),
+                     shown < known.size() ? fmt::format(" and {} more", known.size() - shown) : "");
+}
+
 tl::unexpected<Error> no_such_topic(const BagReader& reader, std::string_view what,
-                                    std::string_view remedy) {
+                                    std::string_view remedy, std::string_view typed) {
   std::set<std::string> topics;
+  std::string compressed;
   for (const auto& [id, connection] : reader.connections()) {
     const bool is_pose =
         std::ranges::find(ros::kPoseTypes, connection.type) != ros::kPoseTypes.end();
-    if (is_pose || connection.type == "sensor_msgs/Image" || connection.topic.ends_with("/data"))
+    if (is_pose || connection.type == "sensor_msgs/Image" ||
+        connection.type == "sensor_msgs/CameraInfo" || connection.topic.ends_with("/data"))
       topics.insert(connection.topic);
+    if (is_compressed_depth(connection)) compressed = connection.topic;
+  }
+  const std::vector<std::string> known(topics.begin(), topics.end());
+  if (!compressed.empty()) {
+    const std::string plain = compressed.substr(0, compressed.rfind('/'));
+    return fail(
+        ErrorCode::kUnsupported, reader.bytes().name(),
+        fmt::format("{}, but compressed depth on {}, which is not read", what, compressed),
+        fmt::format("play the bag through `rosrun image_transport republish compressedDepth "
+                    "in:={} raw out:=/depth/image_raw`, record that, and name it with "
+                    "--depth-topic /depth/image_raw --info-topic {}/camera_info",
+                    plain, plain.substr(0, plain.rfind('/'))));
   }
   return fail(ErrorCode::kNotFound, reader.bytes().name(), std::string(what),
-              fmt::format("{}; it has {} (`swiftlet info` lists all topics)", remedy,
-                          topics.empty() ? "neither images nor poses"
-                                         : fmt::format("{}", fmt::join(topics, ", "))));
+              fmt::format("{}; {} (`swiftlet info` lists all topics)", remedy,
+                          topics.empty() ? "it has neither images nor poses"
+                                         : names_instead(typed, known)));
 }
 
 Expected<BagDepth> open_bag_depth(const std::filesystem::path& path, const BagTopics& topics) {
@@ -52,7 +91,9 @@ Expected<BagDepth> open_bag_depth(const std::filesystem::path& path, const BagTo
 }
 
 Expected<BagPoses> open_bag_poses(const std::filesystem::path& path, const BagTopics& topics) {
-  if (path.extension() == ".txt") return open_text_poses(path, topics);
+  auto as_text = is_text(path);
+  if (!as_text) return forward_error(std::move(as_text));
+  if (*as_text && path.extension() != ".bag") return open_text_poses(path, topics);
   if (topics.pose.empty()) {
     auto recorded = open_realsense_poses(path);
     if (!recorded) return forward_error(std::move(recorded));
@@ -67,8 +108,8 @@ Expected<std::optional<Transform<Body, Camera>>> mount_from_tf(const std::filesy
   auto reader = open_bag(path);
   if (!reader) return forward_error(std::move(reader));
   FrameTree tree;
-  const std::string body = without_slash(body_frame);
-  const std::string camera = without_slash(camera_frame);
+  const std::string body = std::string(plain_name(body_frame));
+  const std::string camera = std::string(plain_name(camera_frame));
   auto found = scan_bag(*reader, [&](const BagMessage& message) {
     const std::string& topic = message.connection->topic;
     if (topic != "/tf_static") return reader->chunks_read() > kChunksWithStatics;
@@ -76,8 +117,8 @@ Expected<std::optional<Transform<Body, Camera>>> mount_from_tf(const std::filesy
     if (!poses) return false;
     for (const ros::StampedPose& pose : *poses) {
       // One that is no transform ties nothing; if it was needed, the chain is not found.
-      (void)tree.add(without_slash(pose.parent), without_slash(pose.child), pose.pose.R,
-                     pose.pose.t_m);
+      (void)tree.add(std::string(plain_name(pose.parent)), std::string(plain_name(pose.child)),
+                     pose.pose.R, pose.pose.t_m);
     }
     return tree.mount(body, camera).has_value();
   });

@@ -31,6 +31,7 @@ struct BagDepth {
   std::string frame_id;  ///< of ROS bags: the optical frame
   PinholeIntrinsics intrinsics;
   std::optional<double> baseline_m;
+  std::string told{};  ///< what was chosen, in words
 };
 
 /// The poses of a bag.
@@ -39,10 +40,11 @@ struct BagPoses {
   std::string topic;
   std::string child_frame;  ///< of ROS bags: the frame that moves; may be empty
   bool is_t265 = false;     ///< recorded by the SDK: native up axis is +y
+  std::string told{};       ///< what was chosen, in words
 };
 
 /// Opens the depth images of a RealSense recording or of a ROS 1 bag; poses also of a text file
-/// (.txt) with lines as in TUM's trajectories.
+/// with lines as in TUM's trajectories. What a file is, its content tells and not its name.
 /// Errors: those of BagReader; kNotFound naming the topics there are; those of the intrinsics.
 [[nodiscard]] Expected<BagDepth> open_bag_depth(const std::filesystem::path& path,
                                                 const BagTopics& topics);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 
@@ -16,7 +17,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::uint32_t kMaxSide = 16384;
+constexpr std::uint32_t kMaxImageSide = 16384;
 
 bool is_float(std::string_view encoding) { return encoding == "32FC1"; }
 
@@ -37,6 +38,19 @@ std::uint16_t steps_of(float depth_m, float unit_m) {
   return steps > 0.0F && steps <= kMax ? static_cast<std::uint16_t>(steps) : std::uint16_t{0};
 }
 
+/// K of an image that has one pixel for so many of the sensor.
+void bin(std::array<double, 9>& K, double bin_x, double bin_y) {
+  K[0] /= bin_x;
+  K[2] /= bin_x;
+  K[4] /= bin_y;
+  K[5] /= bin_y;
+}
+
+/// How far the principal point lies from the middle, in image sizes.
+double off_centre(const std::array<double, 9>& K, int width, int height) {
+  return std::max(std::abs(K[2] / width - 0.5), std::abs(K[5] / height - 0.5));
+}
+
 }  // namespace
 
 bool may_be_depth(std::string_view encoding) {
@@ -49,7 +63,8 @@ tl::expected<DepthImage, std::string> depth_from_message(const ros::Image& image
   if (!(unit_m > 0.0F) || !std::isfinite(unit_m))
     return tl::make_unexpected(fmt::format("its depth unit of {} m cannot be", unit_m));
   const std::size_t pixel_bytes = is_float(image.encoding) ? sizeof(float) : sizeof(std::uint16_t);
-  if (image.width == 0 || image.height == 0 || image.width > kMaxSide || image.height > kMaxSide)
+  if (image.width == 0 || image.height == 0 || image.width > kMaxImageSide ||
+      image.height > kMaxImageSide)
     return tl::make_unexpected(fmt::format("{} x {} pixels cannot be", image.width, image.height));
   if (image.step < image.width * pixel_bytes ||
       image.data.size() < std::size_t{image.step} * image.height) {
@@ -76,12 +91,56 @@ Expected<PinholeIntrinsics> intrinsics_from_message(const ros::CameraInfo& info,
                 fmt::format("its images have lens distortion ({})", info.distortion_model),
                 "use the rectified depth of the device, as in depth/image_rect_raw");
   }
-  if (info.width > kMaxSide || info.height > kMaxSide)
+  if (info.width > kMaxImageSide || info.height > kMaxImageSide)
     return fail(ErrorCode::kCorruptInput, where, "its image size cannot be");
   auto intrinsics = PinholeIntrinsics::create(to<int>(info.width), to<int>(info.height), info.K[0],
                                               info.K[4], info.K[2], info.K[5]);
   if (!intrinsics) intrinsics.error().where = where;
   return intrinsics;
+}
+
+std::optional<double> smooth_share(const DepthImage& depth) {
+  constexpr std::size_t kFewest = 100;
+  std::size_t pairs = 0, smooth = 0;
+  for (int v = 0; v < depth.raw.height(); ++v) {
+    const auto row = depth.raw.row(v);
+    for (std::size_t u = 1; u < row.size(); ++u) {
+      const int a = row[u - 1], b = row[u];
+      if (a == 0 || b == 0) continue;
+      ++pairs;
+      smooth += 20 * std::abs(a - b) < std::min(a, b) ? 1 : 0;
+    }
+  }
+  if (pairs < kFewest) return std::nullopt;
+  return static_cast<double>(smooth) / static_cast<double>(pairs);
+}
+
+Expected<PinholeIntrinsics> intrinsics_of_images(const ros::CameraInfo& info, int width, int height,
+                                                 const std::string& where) {
+  const double bin_x = std::max(1U, info.binning_x), bin_y = std::max(1U, info.binning_y);
+  const bool has_region = info.region.width > 0 && info.region.height > 0;
+  const double seen_x = has_region ? info.region.width : info.width;
+  const double seen_y = has_region ? info.region.height : info.height;
+  ros::CameraInfo own = info;
+  own.width = to<std::uint32_t>(width);
+  own.height = to<std::uint32_t>(height);
+  if (std::floor(seen_x / bin_x) == width && std::floor(seen_y / bin_y) == height) {
+    if (has_region) {
+      own.K[2] -= info.region.x;
+      own.K[5] -= info.region.y;
+    }
+    bin(own.K, bin_x, bin_y);
+  } else if (info.width != own.width || info.height != own.height) {
+    return fail(ErrorCode::kCorruptInput, where,
+                fmt::format("the image has another size than its CameraInfo: {} x {}, not {} x {}",
+                            width, height, std::floor(seen_x / bin_x), std::floor(seen_y / bin_y)),
+                "record the CameraInfo of these images, or name it with --info-topic");
+  } else {
+    std::array<double, 9> binned = info.K;
+    bin(binned, bin_x, bin_y);
+    if (off_centre(binned, width, height) < off_centre(own.K, width, height)) own.K = binned;
+  }
+  return intrinsics_from_message(own, where);
 }
 
 }  // namespace swiftlet

@@ -24,6 +24,18 @@ namespace swiftlet {
 [[nodiscard]] tl::expected<DepthImage, std::string> depth_from_message(const ros::Image& image,
                                                                        float unit_m);
 
+/// Share of neighbours in a row, of those with a reading both, that differ by less than 5 %: high
+/// for depth, low for what a lamp and noise draw. nullopt with too few to tell.
+[[nodiscard]] std::optional<double> smooth_share(const DepthImage& depth);
+
+/// What a CameraInfo says of images of that size: its K moved and scaled by its region and binning,
+/// if these make the size of its sensor that of the images. Where the size was adapted and K was
+/// not, the principal point tells.
+/// Errors: kCorruptInput if the size does not fit; those of intrinsics_from_message().
+[[nodiscard]] Expected<PinholeIntrinsics> intrinsics_of_images(const ros::CameraInfo& info,
+                                                               int width, int height,
+                                                               const std::string& where);
+
 /// Errors: kCorruptInput if K is impossible; kUnsupported if the images have lens distortion.
 [[nodiscard]] Expected<PinholeIntrinsics> intrinsics_from_message(const ros::CameraInfo& info,
                                                                   const std::string& where);

@@ -174,7 +174,8 @@ Expected<std::optional<BagDepth>> open_realsense_depth(const std::filesystem::pa
                   setup.stream + "/image/data",
                   {},
                   intrinsics,
-                  setup.baseline_m};
+                  setup.baseline_m,
+                  "depth from " + setup.stream + "/image/data"};
 }
 
 }  // namespace swiftlet

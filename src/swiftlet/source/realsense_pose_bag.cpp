@@ -100,7 +100,8 @@ Expected<std::optional<BagPoses>> open_realsense_poses(const std::filesystem::pa
   return BagPoses{std::make_unique<RealsensePoses>(std::move(*again), *stream),
                   *stream + "/pose/transform/data",
                   {},
-                  true};
+                  true,
+                  "poses from " + *stream + "/pose/transform/data"};
 }
 
 }  // namespace swiftlet

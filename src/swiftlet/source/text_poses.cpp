@@ -48,7 +48,11 @@ Expected<BagPoses> open_text_poses(const std::filesystem::path& path, const BagT
   if (poses.empty())
     return fail(ErrorCode::kCorruptInput, path.string(), "it holds no poses",
                 fmt::format("a line is: {}", kPoseColumns));
-  return BagPoses{std::make_unique<TextPoses>(std::move(poses)), path.string(), {}, false};
+  return BagPoses{std::make_unique<TextPoses>(std::move(poses)),
+                  path.string(),
+                  {},
+                  false,
+                  "poses from " + path.string()};
 }
 
 }  // namespace swiftlet

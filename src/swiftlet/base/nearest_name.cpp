@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/app/nearest_name.hpp"
+#include "swiftlet/base/nearest_name.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
-namespace swiftlet::app {
+namespace swiftlet {
 namespace {
 
 /// Levenshtein distance, one row at a time.
@@ -46,4 +46,4 @@ std::optional<std::string> nearest_name(std::string_view typed,
   return *nearest;
 }
 
-}  // namespace swiftlet::app
+}  // namespace swiftlet

@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-namespace swiftlet::app {
+namespace swiftlet {
 
 /// What the user may have meant: the known name with the fewest edits, if it is close at all.
 [[nodiscard]] std::optional<std::string> nearest_name(std::string_view typed,
                                                       std::span<const std::string> known);
 
-}  // namespace swiftlet::app
+}  // namespace swiftlet
