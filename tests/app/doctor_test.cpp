@@ -133,6 +133,20 @@ const Illness kIllnesses[]{
     {"poses", Severity::kNote, [](DoctorExam& e) { e.facts->poses.high_m = e.facts->poses.low_m; }},
     {"depth_units", Severity::kWarning, [](DoctorExam& e) { e.readings[0].medians_m = {2000.0F}; }},
     {"readings", Severity::kWarning, [](DoctorExam& e) { e.readings[0].readings = 100; }},
+    {"clocks", Severity::kWarning, [](DoctorExam& e) { e.tally.pose_clock.back = 1; }},
+    {"depth_rate", Severity::kWarning, [](DoctorExam& e) { e.tally.of(FrameLoss::kBadStamp) = 1; }},
+    {"depth_rate", Severity::kWarning,
+     [](DoctorExam& e) {
+       e.rig.cameras.resize(2);
+       e.facts->cameras.push_back(e.facts->cameras[0]);
+       e.facts->cameras[0].last = Stamp{9'000'000'000};
+     }},
+    {"depth_rate", Severity::kNote,
+     [](DoctorExam& e) {
+       e.facts->cameras[0].intrinsics_changed = Stamp{1'000'000'000};
+       e.facts->cameras[0].intrinsics_changes = 1;
+     }},
+    {"poses", Severity::kWarning, [](DoctorExam& e) { e.tally.poses_refused_by.back() = 1; }},
     {"frames", Severity::kFault,
      [](DoctorExam& e) {
        e.tally.delivered = 0;

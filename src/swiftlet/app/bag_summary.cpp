@@ -13,6 +13,7 @@
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/bag/bag_reader.hpp"
 #include "swiftlet/bag/ros_messages.hpp"
+#include "swiftlet/source/bag_streams.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -40,6 +41,14 @@ std::string compression_of(const BagReader& reader) {
   return fmt::format("{}", fmt::join(used, ", "));
 }
 
+/// What would be mapped without another option, or why nothing would be.
+void add_choices(BagSummary& summary) {
+  const auto depth = open_bag_depth(summary.path, {});
+  const auto poses = open_bag_poses(summary.path, {});
+  summary.choices.push_back(depth ? depth->told : "no depth: " + depth.error().what);
+  summary.choices.push_back(poses ? poses->told : "no poses: " + poses.error().what);
+}
+
 double duration_s(const BagTopicSummary& topic) { return seconds(topic.last - topic.first); }
 
 }  // namespace
@@ -58,6 +67,7 @@ Expected<BagSummary> summarize_bag(const std::string& path) {
   }
   summary.chunks = reader->chunks_read();
   summary.compression = compression_of(*reader);
+  if (!summary.fault) add_choices(summary);
   return summary;
 }
 
@@ -79,6 +89,7 @@ std::string bag_text(const BagSummary& bag) {
     }
     text += "\n";
   }
+  for (const std::string& choice : bag.choices) text += fmt::format("  would map: {}\n", choice);
   return text;
 }
 
@@ -97,6 +108,7 @@ std::string bag_json(const BagSummary& bag) {
                               {"first_ns", topic.first.ns},
                               {"last_ns", topic.last.ns}});
   }
+  json["would_map"] = bag.choices;
   return json_text(json) + "\n";
 }
 

@@ -30,8 +30,9 @@ struct BagSummary {
   std::string compression{};                        ///< "none", "lz4", "bz2" or several of them
   std::map<std::string, BagTopicSummary> topics{};  ///< by name
   std::vector<std::pair<std::string, std::string>>
-      device{};                  ///< what the RealSense SDK tells of it
-  std::optional<Error> fault{};  ///< where it is damaged; the rest holds what came before
+      device{};                        ///< what the RealSense SDK tells of it
+  std::vector<std::string> choices{};  ///< what `swiftlet map` would take of it, in words
+  std::optional<Error> fault{};        ///< where it is damaged; the rest holds what came before
 };
 
 /// Errors: those of opening it.

@@ -149,7 +149,7 @@ Action declare_info(CLI::App& parser) {
       "Examples:\n"
       "  swiftlet info flat.swl\n"
       "  swiftlet info flat.swl --json | jq .cells\n"
-      "  swiftlet info flight.bag       lists its topics");
+      "  swiftlet info flight.bag       lists its topics and what of them would be mapped");
   return [o] { return info(*o); };
 }
 

@@ -21,6 +21,7 @@
 #include "swiftlet/app/mapping_session.hpp"
 #include "swiftlet/app/progress.hpp"
 #include "swiftlet/app/rig_flags.hpp"
+#include "swiftlet/app/source_notes.hpp"
 #include "swiftlet/source/real_time_source.hpp"
 #include "swiftlet/source/sources.hpp"
 
@@ -117,6 +118,7 @@ Status fly(FrameSource& source, MappingSession& session, const MapOptions& optio
   }
   summary.elapsed_s = progress.elapsed_s();
   summary.source_tally = source.tally();
+  summary.notes = source_notes(source);
   summary.depth_doubt = doubt.text();
   if (watch != nullptr) watch->note(summary.source_tally, summary.blocks_lost);
   progress.finish();

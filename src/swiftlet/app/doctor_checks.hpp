@@ -46,6 +46,7 @@ struct DoctorExam {
   std::optional<RealsenseSystem> system{};  ///< live devices
   std::optional<Error> no_system{};         ///< why they could not be asked
   std::optional<Error> fault{};             ///< why the source could not be opened, or read on
+  std::vector<std::string> choices{};       ///< SourceInfo::choices
   std::optional<RigFacts> facts{};
   RigOptions rig{};
   FrameTally tally{};

@@ -36,6 +36,7 @@ void examine_source(FrameSource& source, Nanoseconds duration, const std::functi
   source.stop_when(
       [&] { return stop() || (is_timed && HostTime::clock::now() - alive_at > duration); });
   if (source.rig() != nullptr) exam.rig = *source.rig();
+  exam.choices = source.info().choices;
   exam.intrinsics = source.info().intrinsics;
   DepthDoubt doubt(source.info().assumed_depth_unit_m);
   exam.is_t265 = source.info().native_up_axis == "+y";

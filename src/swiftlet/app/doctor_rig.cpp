@@ -38,6 +38,7 @@ std::string_view looks(const Transform<Body, Camera>& mount) {
 }  // namespace
 
 void check_reading(const DoctorExam& exam, std::vector<Finding>& findings) {
+  for (const std::string& choice : exam.choices) findings.push_back({Severity::kGood, choice});
   if (!exam.fault) return;
   const Error& fault = *exam.fault;
   const std::string what = fault.where.empty() ? fault.what : fault.where + ": " + fault.what;
@@ -128,6 +129,12 @@ void check_poses(const DoctorExam& exam, std::vector<Finding>& findings) {
                      degrees(*poses.least_tilt_rad)),
          "the axes of the poses are others than told: check pose.axes (rep103: x forward, "
          "y left, z up; t265: x right, y up, z backward)"});
+  constexpr auto kBadStamp = static_cast<std::size_t>(PoseRefusal::kBadStamp);
+  if (const std::size_t bad = exam.tally.poses_refused_by[kBadStamp]; bad > 0)
+    findings.push_back(
+        {Severity::kWarning,
+         fmt::format("the stamps of {} poses agree neither with those before nor after", bad),
+         "they are refused and counted (bad_stamp); look for what stamps them"});
   if (exam.tally.pose_jumps > 0)
     findings.push_back({Severity::kWarning,
                         fmt::format("the pose source has jumped {} times", exam.tally.pose_jumps),

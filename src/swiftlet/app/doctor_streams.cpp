@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "swiftlet/app/doctor_checks.hpp"
+#include "swiftlet/app/source_notes.hpp"
 
 // The times of what has come: clocks, rates, overlap.
 
@@ -57,9 +59,36 @@ void check_clock_of(std::string_view who, const StreamFacts& images, const PoseF
       {Severity::kGood, fmt::format("{}: {}; poses: {}", who, name_of(a), name_of(b))});
 }
 
+/// What only a whole recording tells of its cameras.
+void check_continuity(const DoctorExam& exam, std::vector<Finding>& findings) {
+  constexpr auto kBadStamp = static_cast<std::size_t>(FrameLoss::kBadStamp);
+  if (const std::size_t bad = exam.tally.lost[kBadStamp]; bad > 0) {
+    findings.push_back(
+        {Severity::kWarning,
+         fmt::format("the stamps of {} images agree neither with those before nor after", bad),
+         "they are lost (bad_stamp); look for what stamps them"});
+  }
+  const bool has_seen = std::ranges::any_of(exam.facts->cameras, &CameraFacts::samples);
+  if (has_seen && exam.facts->cameras.size() > 1) {
+    for (std::string& note : silence_notes(*exam.facts, exam.rig)) {
+      findings.push_back({Severity::kWarning, std::move(note),
+                          "its cable or its power: the map lacks what it would have seen"});
+    }
+  }
+  for (std::string& note : intrinsics_notes(*exam.facts, exam.rig)) {
+    findings.push_back({Severity::kNote, std::move(note),
+                        "if the camera was not switched on purpose, find what publishes another "
+                        "CameraInfo"});
+  }
+}
+
 }  // namespace
 
 void check_clocks(const DoctorExam& exam, std::vector<Finding>& findings) {
+  for (std::string& note : clock_notes(exam.tally)) {
+    findings.push_back({Severity::kWarning, std::move(note),
+                        "set the clock of the computer before the flight (docs/rig.md, \"Time\")"});
+  }
   if (!exam.facts || exam.facts->poses.samples == 0) return;
   check_mixture("poses", exam.facts->poses, findings);
   for (std::size_t i = 0; i < exam.facts->cameras.size(); ++i) {
@@ -72,6 +101,7 @@ void check_clocks(const DoctorExam& exam, std::vector<Finding>& findings) {
 
 void check_depth_rate(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.facts) return;
+  check_continuity(exam, findings);
   for (std::size_t i = 0; i < exam.facts->cameras.size(); ++i) {
     const CameraFacts& camera = exam.facts->cameras[i];
     const std::string who = exam.rig.cameras[i].title();
@@ -83,10 +113,13 @@ void check_depth_rate(const DoctorExam& exam, std::vector<Finding>& findings) {
     }
     const double rate_hz = camera.rate_hz();
     const double period_ms = rate_hz > 0.0 ? 1e3 / rate_hz : 0.0;
-    if (camera.backward > 0) {
+    // The image after each time that the clock was set back is no fault of the recording.
+    const std::size_t backward =
+        camera.backward - std::min(camera.backward, exam.tally.image_clock.back);
+    if (backward > 0) {
       findings.push_back({Severity::kWarning,
                           fmt::format("{}: {} of {} images are not later than the one before", who,
-                                      camera.backward, camera.samples),
+                                      backward, camera.samples),
                           "they are lost (out_of_order); record each camera once"});
     }
     const bool has_gap = in_ms(camera.longest_gap) > std::max(200.0, 5.0 * period_ms);

@@ -78,6 +78,13 @@ nlohmann::ordered_json events_json(const RigEventCounts& events) {
   return json;
 }
 
+nlohmann::ordered_json clock_json(const ClockSteps& steps) {
+  return {{"back", steps.back},
+          {"last_back_s", seconds(steps.last_back)},
+          {"ahead", steps.ahead},
+          {"last_ahead_s", seconds(steps.last_ahead)}};
+}
+
 nlohmann::ordered_json refused_json(const FrameTally& tally) {
   auto json = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < kPoseRefusalNames.size(); ++i) {
@@ -173,6 +180,7 @@ std::string summary_text(const MappingSummary& s) {
     text += fmt::format("  deadline   {} frames late; {} far blocks left to later frames\n",
                         s.late_frames, s.blocks_left);
   }
+  for (const std::string& note : s.notes) text += fmt::format("  note       {}\n", note);
   text += latency_text(s.latency);
   text += fmt::format("  window     {}; {} blocks evicted, {} restored\n",
                       size_text(s.memory_bytes), s.blocks_evicted, s.blocks_restored);
@@ -195,6 +203,10 @@ std::string summary_json(const MappingSummary& s) {
       {"stale_alarms", s.source_tally.stale_alarms},
       {"restarts", s.restarts},
       {"device_events", events_json(s.source_tally.events)},
+      {"clock_steps",
+       {{"poses", clock_json(s.source_tally.pose_clock)},
+        {"images", clock_json(s.source_tally.image_clock)}}},
+      {"notes", s.notes},
       {"elapsed_s", s.elapsed_s},
       {"fps", rate(s.integrated(), s.elapsed_s)},
       {"mapper_fps", rate(s.integrated(), seconds(s.latency.total()))},

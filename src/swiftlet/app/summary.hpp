@@ -41,8 +41,9 @@ struct MappingSummary {
   std::size_t memory_bytes = 0;  ///< window and scratch
   std::size_t restarts = 0;      ///< times the poses lost their place, and a new map began
   bool was_interrupted = false;
-  std::uint64_t blocks_lost = 0;  ///< of the map, since the disk refused them
-  std::vector<SavedFile> files;   ///< one a world; none until the map is saved
+  std::vector<std::string> notes;  ///< of the source; see source_notes()
+  std::uint64_t blocks_lost = 0;   ///< of the map, since the disk refused them
+  std::vector<SavedFile> files;    ///< one a world; none until the map is saved
 
   [[nodiscard]] std::size_t integrated() const { return verdicts[0]; }
   /// Frames that did not reach the map, by reason; reasons that did not occur are left out.
