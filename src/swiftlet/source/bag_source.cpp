@@ -108,14 +108,7 @@ Status find_mount(const BagDepth& depth, const BagPoses& poses, BagRequest& requ
   }
   auto mount = mount_from_tf(file, poses.child_frame, depth.frame_id);
   if (!mount) return forward_error(std::move(mount));
-  if (!*mount) {
-    return fail(ErrorCode::kNotFound, file,
-                fmt::format("/tf_static does not tell where the camera '{}' sits on '{}'",
-                            depth.frame_id, poses.child_frame),
-                "name the vehicle's own frame with --body-frame, or describe the mount in a rig "
-                "file and give it with --rig (docs/rig.md)");
-  }
-  request.rig.rig.cameras.front().T_body_camera = **mount;
+  request.rig.rig.cameras.front().T_body_camera = *mount;
   return Done{};
 }
 

@@ -25,12 +25,6 @@ namespace {
 // Static transforms are recorded when the recorder starts; a chunk is about one image.
 constexpr std::uint64_t kChunksWithStatics = 200;
 
-/// Depth that a plain reader cannot read: PNG or RVL behind a header of image_transport.
-bool is_compressed_depth(const BagConnection& connection) {
-  return connection.type == "sensor_msgs/CompressedImage" &&
-         connection.topic.ends_with("/compressedDepth");
-}
-
 /// Whether a file is text, by its first bytes: neither zeros nor a bag.
 Expected<bool> is_text(const std::filesystem::path& path) {
   auto bytes = open_file_bytes(path);
@@ -55,26 +49,14 @@ std::string names_instead(std::string_view typed, const std::vector<std::string>
 tl::unexpected<Error> no_such_topic(const BagReader& reader, std::string_view what,
                                     std::string_view remedy, std::string_view typed) {
   std::set<std::string> topics;
-  std::string compressed;
   for (const auto& [id, connection] : reader.connections()) {
     const bool is_pose =
         std::ranges::find(ros::kPoseTypes, connection.type) != ros::kPoseTypes.end();
     if (is_pose || connection.type == "sensor_msgs/Image" ||
         connection.type == "sensor_msgs/CameraInfo" || connection.topic.ends_with("/data"))
       topics.insert(connection.topic);
-    if (is_compressed_depth(connection)) compressed = connection.topic;
   }
   const std::vector<std::string> known(topics.begin(), topics.end());
-  if (!compressed.empty()) {
-    const std::string plain = compressed.substr(0, compressed.rfind('/'));
-    return fail(
-        ErrorCode::kUnsupported, reader.bytes().name(),
-        fmt::format("{}, but compressed depth on {}, which is not read", what, compressed),
-        fmt::format("play the bag through `rosrun image_transport republish compressedDepth "
-                    "in:={} raw out:=/depth/image_raw`, record that, and name it with "
-                    "--depth-topic /depth/image_raw --info-topic {}/camera_info",
-                    plain, plain.substr(0, plain.rfind('/'))));
-  }
   return fail(ErrorCode::kNotFound, reader.bytes().name(), std::string(what),
               fmt::format("{}; {} (`swiftlet info` lists all topics)", remedy,
                           topics.empty() ? "it has neither images nor poses"
@@ -102,9 +84,9 @@ Expected<BagPoses> open_bag_poses(const std::filesystem::path& path, const BagTo
   return open_ros_poses(path, topics);
 }
 
-Expected<std::optional<Transform<Body, Camera>>> mount_from_tf(const std::filesystem::path& path,
-                                                               const std::string& body_frame,
-                                                               const std::string& camera_frame) {
+Expected<Transform<Body, Camera>> mount_from_tf(const std::filesystem::path& path,
+                                                const std::string& body_frame,
+                                                const std::string& camera_frame) {
   auto reader = open_bag(path);
   if (!reader) return forward_error(std::move(reader));
   FrameTree tree;
@@ -123,7 +105,14 @@ Expected<std::optional<Transform<Body, Camera>>> mount_from_tf(const std::filesy
     return tree.mount(body, camera).has_value();
   });
   if (!found) return forward_error(std::move(found));
-  return tree.mount(body, camera);
+  if (const auto mount = tree.mount(body, camera)) return *mount;
+  const std::vector<std::string> names = tree.names();
+  return fail(
+      ErrorCode::kNotFound, path.string(),
+      fmt::format("/tf_static does not tell where the camera '{}' sits on '{}': {}", camera_frame,
+                  body_frame, names.empty() ? "it is empty" : names_instead(body, names)),
+      "name the vehicle with --body-frame, or describe the mount in a rig file and give it with "
+      "--rig (docs/rig.md)");
 }
 
 }  // namespace swiftlet

@@ -51,10 +51,11 @@ struct BagPoses {
 [[nodiscard]] Expected<BagPoses> open_bag_poses(const std::filesystem::path& path,
                                                 const BagTopics& topics);
 
-/// The mount that the /tf_static messages of a ROS bag tell: `camera_frame` in `body_frame`;
-/// nullopt if there is no chain between the two near the beginning of the file.
-[[nodiscard]] Expected<std::optional<Transform<Body, Camera>>> mount_from_tf(
-    const std::filesystem::path& path, const std::string& body_frame,
-    const std::string& camera_frame);
+/// The mount that the /tf_static messages of a ROS bag tell: `camera_frame` in `body_frame`.
+/// Errors: those of BagReader; kNotFound, naming the frames there are, if there is no chain between
+/// the two near the beginning of the file.
+[[nodiscard]] Expected<Transform<Body, Camera>> mount_from_tf(const std::filesystem::path& path,
+                                                              const std::string& body_frame,
+                                                              const std::string& camera_frame);
 
 }  // namespace swiftlet

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 #include <utility>
 
 #include "swiftlet/bag/ros_messages.hpp"
@@ -78,6 +79,25 @@ void note_image(const BagMessage& message, const ros::Image& image,
   found->last = message.record_time;
 }
 
+/// Depth that is not read, PNG or RVL behind a header of image_transport: the error that names it
+/// and says what to do; nullopt if there is none.
+std::optional<Error> compressed_depth(const BagReader& reader, std::string_view what) {
+  for (const auto& [id, connection] : reader.connections()) {
+    constexpr std::string_view kEnd = "/compressedDepth";
+    const std::string& topic = connection.topic;
+    if (connection.type != "sensor_msgs/CompressedImage" || !topic.ends_with(kEnd)) continue;
+    const std::string plain = topic.substr(0, topic.size() - kEnd.size());
+    return Error{ErrorCode::kUnsupported, reader.bytes().name(),
+                 fmt::format("{}, but compressed depth on {}, which is not read", what, topic),
+                 fmt::format("play the bag through `rosrun image_transport republish "
+                             "compressedDepth in:={} raw out:=/depth/image_raw`, record that, and "
+                             "name it with --depth-topic /depth/image_raw --info-topic "
+                             "{}/camera_info",
+                             plain, plain.substr(0, plain.rfind('/')))};
+  }
+  return std::nullopt;
+}
+
 std::string list_of(const std::vector<DepthCandidate>& candidates) {
   std::string text;
   for (const DepthCandidate& candidate : candidates)
@@ -123,10 +143,11 @@ Expected<DepthCandidate> choose_depth(const BagReader& reader,
   constexpr std::string_view kRemedy = "choose a topic with --depth-topic";
   if (!wanted.empty() && !candidates.empty()) return candidates.front();
   if (candidates.empty()) {
-    return no_such_topic(reader,
-                         wanted.empty() ? "it holds no depth images (16UC1, mono16 or 32FC1)"
-                                        : fmt::format("it has no images on {}", wanted),
-                         kRemedy, wanted);
+    const std::string what = wanted.empty() ? "it holds no depth images (16UC1, mono16 or 32FC1)"
+                                            : fmt::format("it has no images on {}", wanted);
+    if (auto compressed = compressed_depth(reader, what))
+      return tl::make_unexpected(std::move(*compressed));
+    return no_such_topic(reader, what, kRemedy, wanted);
   }
   const auto best = std::ranges::max_element(candidates, {}, &DepthCandidate::evidence);
   if (best->evidence < 1) {

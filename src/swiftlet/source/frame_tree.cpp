@@ -17,6 +17,12 @@ Status FrameTree::add(const std::string& parent, const std::string& child,
   return Done{};
 }
 
+std::vector<std::string> FrameTree::names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, hops] : hops_) names.push_back(name);
+  return names;
+}
+
 std::optional<Transform<Body, Camera>> FrameTree::mount(const std::string& body,
                                                         const std::string& camera) const {
   std::map<std::string, Hop> reached{{camera, Hop{}}};  // T_here_camera; breadth first

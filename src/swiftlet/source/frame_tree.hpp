@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "swiftlet/base/frame_of.hpp"
 
@@ -22,6 +23,9 @@ class FrameTree {
   /// Where a camera is on a body; nullopt if no chain of ties leads from one to the other.
   [[nodiscard]] std::optional<Transform<Body, Camera>> mount(const std::string& body,
                                                              const std::string& camera) const;
+
+  /// The names of all frames.
+  [[nodiscard]] std::vector<std::string> names() const;
 
  private:
   struct Anywhere {};
