@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "swiftlet/base/contract.hpp"
@@ -33,6 +34,12 @@ void JoinedSource::take_stock() {
   gates_.report_to(rig_);
   tally_ = rig_.tally();
   tally_.events = event_counts_;
+}
+
+std::vector<RigEvent> JoinedSource::take_events() {
+  std::vector<RigEvent> events = events_.take();
+  std::ranges::move(skipped_.take_events(), std::back_inserter(events));
+  return events;
 }
 
 Expected<std::optional<Frame>> JoinedSource::next() {

@@ -31,9 +31,8 @@ class JoinedSource final : public FrameSource {
   [[nodiscard]] const FrameTally& tally() const override { return tally_; }
   [[nodiscard]] const RigFacts* facts() const override { return &rig_.facts(); }
   [[nodiscard]] const RigOptions* rig() const override { return &rig_.options(); }
-  [[nodiscard]] std::vector<RigEvent> take_events() override { return skipped_.take_events(); }
   void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
-  [[nodiscard]] std::vector<RigEvent> take_events() override { return events_.take(); }
+  [[nodiscard]] std::vector<RigEvent> take_events() override;
 
  private:
   struct Camera {
