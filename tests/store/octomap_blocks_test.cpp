@@ -15,7 +15,7 @@ namespace {
 
 using test::TempFolder;
 
-constexpr OccupancyThresholds kThresholds;
+constexpr OccupancyThresholds kLaidOut;
 
 /// A .bt whose root has one child that is a leaf, below so many inner nodes; child 0 each time.
 std::string one_leaf(int depth, bool is_occupied) {
@@ -30,12 +30,12 @@ TEST(OctomapBlocks, lays_out_leaves_of_every_size_that_fits) {
   for (const int depth : {16, 15, 13, 12, 9}) {  // edges 1, 2, 8, 16 and 128
     for (const bool is_occupied : {true, false}) {
       test::write_file(folder / "a.bt", one_leaf(depth, is_occupied));
-      const auto out = read_octomap_blocks(folder / "a.bt", kThresholds);
+      const auto out = read_octomap_blocks(folder / "a.bt", kLaidOut);
       ASSERT_TRUE(out) << out.error().text();
       std::uint64_t cells = 0;
       for (const auto& [index, block] : out->blocks) {
         for (const LogOdds cell : block.cells) {
-          const auto state = kThresholds.classify(cell);
+          const auto state = kLaidOut.classify(cell);
           if (state == Occupancy::kUnknown) continue;
           EXPECT_EQ(state == Occupancy::kOccupied, is_occupied);
           ++cells;
@@ -52,7 +52,7 @@ TEST(OctomapBlocks, refuses_a_leaf_that_stands_for_more_than_a_memory_holds_in_n
   const auto start = std::chrono::steady_clock::now();
   for (const int depth : {1, 2, 5}) {
     test::write_file(folder / "a.bt", one_leaf(depth, false));
-    const auto out = read_octomap_blocks(folder / "a.bt", kThresholds);
+    const auto out = read_octomap_blocks(folder / "a.bt", kLaidOut);
     ASSERT_FALSE(out) << depth;
     EXPECT_EQ(out.error().code, ErrorCode::kUnsupported);
   }
