@@ -239,7 +239,7 @@ TEST(ConfigFile, a_file_that_is_not_there_is_told) {
 TEST(ConfigFile, saved_with_a_byte_order_mark_is_read) {
   const test::TempFolder folder;
   test::write_file(folder / "c.yaml", "\xEF\xBB\xBFmap:\n  voxel_m: 0.25\n");
-  const auto config = load_config({(folder / "c.yaml").string(), {}});
+  const auto config = load_config({{(folder / "c.yaml").string()}, {}});
   ASSERT_TRUE(config) << config.error().front().text();
   EXPECT_EQ(config->mapper.map.voxel_m, 0.25);
 }
@@ -247,10 +247,10 @@ TEST(ConfigFile, saved_with_a_byte_order_mark_is_read) {
 TEST(ConfigFile, that_is_a_pipe_or_a_device_is_refused_at_once) {
   const test::TempFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-  const auto pipe = load_config({(folder / "pipe").string(), {}});
+  const auto pipe = load_config({{(folder / "pipe").string()}, {}});
   ASSERT_FALSE(pipe);
   EXPECT_THAT(pipe.error().front().text(), HasSubstr("it is a pipe, not a file"));
-  EXPECT_FALSE(load_config({"/dev/zero", {}}));
+  EXPECT_FALSE(load_config({{"/dev/zero"}, {}}));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "support/temp_folder.hpp"
 #include "swiftlet/app/checked_files.hpp"
 #include "swiftlet/app/map_reader.hpp"
+#include "swiftlet/app/opened_map.hpp"
 #include "swiftlet/store/save_blocks.hpp"
 
 namespace swiftlet::app {
@@ -71,8 +72,8 @@ TEST(FileKind, maps_of_both_kinds_are_opened_under_any_name_and_others_are_named
   test::write_file(folder / "small.swl", small + std::string("\x02\0", 2));
   const auto opened = open_map((folder / "small.swl").string());
   ASSERT_TRUE(opened) << opened.error().text();
-  EXPECT_EQ(opened->map.block_count(), 1U);
-  EXPECT_EQ(opened->map.voxel_m(), 0.1);
+  EXPECT_EQ(opened->file.block_count(), 1U);
+  EXPECT_EQ(opened->file.voxel_m(), 0.1);
   test::write_file(folder / "picture.swl", "\x89PNG\r\n\x1a\n");
   EXPECT_THAT(open_map((folder / "picture.swl").string()).error().text(),
               AllOf(HasSubstr("picture.swl"), HasSubstr("a PNG picture, not a map")));
