@@ -11,6 +11,7 @@
 #include "app/support/run_program.hpp"
 #include "support/bag_writer.hpp"
 #include "support/temp_folder.hpp"
+#include "swiftlet/base/narrow.hpp"
 
 namespace swiftlet::test {
 namespace {
@@ -33,7 +34,7 @@ void write_flight(const std::filesystem::path& path, int set_back_s) {
     bag.message("/odom", "nav_msgs/Odometry", recorded,
                 odometry_message(stamp, {1e-4 * t_ms, 0, 0}));
     Image<std::uint16_t> wall(24, 16, 2000);
-    wall.at(t_ms / 20 % 24, t_ms / 480 % 16) = 2001;  // no two images are the same
+    wall.at(t_ms / 20 % 24, 0) = to<std::uint16_t>(2001 + t_ms / 480);  // no two are the same
     if (t_ms % 100 == 0)
       bag.message("/depth/image_raw", "sensor_msgs/Image", recorded, image_message(wall, stamp));
   }

@@ -44,9 +44,13 @@ TEST(RealsenseDriver, puts_the_depth_of_the_sdk_on_the_wall_within_the_rounding_
       const double t_ms = kT0_ms + 5.0 * i;
       take_pose(pose_at(t_ms), t_ms, RS2_TIMESTAMP_DOMAIN_SYSTEM_TIME, rig);
     }
-    for (int k = 0; k < kFrames; ++k) {
+    const auto deliver = [&](int k) {
       const double t_ms = kT0_ms + 12.3 + k * 1000.0 / 30.0;
       camera.deliver(wall_seen_at(t_ms, depth->info.intrinsics), t_ms, k + 1);
+    };
+    deliver(0);  // believed when the next one agrees with its time
+    for (int k = 1; k <= kFrames; ++k) {
+      if (k < kFrames) deliver(k);
       const auto frame = rig.next();
       ASSERT_TRUE(frame && *frame);
       EXPECT_LT(worst_off_the_wall_m(**frame), kWallTolerance_m);
@@ -62,11 +66,14 @@ TEST(RealsenseDriver, refuses_poses_of_another_clock_and_counts_the_frames) {
   LiveRig rig = new_rig(std::chrono::milliseconds(200));
   const auto stream = start_depth(*depth, 0, rig);
   ASSERT_TRUE(stream);
-  take_pose(pose_at(kT0_ms), kT0_ms, RS2_TIMESTAMP_DOMAIN_HARDWARE_CLOCK, rig);
-  camera.deliver(wall_seen_at(kT0_ms, depth->info.intrinsics), kT0_ms, 1);
+  for (const int k : {0, 1}) {  // two that agree begin a stream
+    const double t_ms = kT0_ms + 33.3 * k;
+    take_pose(pose_at(t_ms), t_ms, RS2_TIMESTAMP_DOMAIN_HARDWARE_CLOCK, rig);
+    camera.deliver(wall_seen_at(t_ms, depth->info.intrinsics), t_ms, k + 1);
+  }
   EXPECT_FALSE(rig.next()) << "no image that fits, then silence";
   FrameTally tally = rig.tally();
-  EXPECT_EQ(tally.of(FrameLoss::kClockMismatch), 1U);
+  EXPECT_EQ(tally.of(FrameLoss::kClockMismatch), 2U);
 }
 
 TEST(RealsenseDriver, names_the_profiles_there_are) {

@@ -150,6 +150,10 @@ void check_poses(const DoctorExam& exam, std::vector<Finding>& findings) {
 }
 
 void check_depth_units(const DoctorExam& exam, std::vector<Finding>& findings) {
+  if (!exam.depth_doubt.empty()) {
+    findings.push_back({Severity::kWarning, exam.depth_doubt,
+                        "say it behind the folder, as in ?depth_unit_m=0.001"});
+  }
   if (!exam.facts) return;
   for (std::size_t i = 0; i < exam.facts->cameras.size(); ++i) {
     const CameraFacts& camera = exam.facts->cameras[i];
@@ -166,10 +170,6 @@ void check_depth_units(const DoctorExam& exam, std::vector<Finding>& findings) {
          fmt::format("{}: {:g} m a step{}", exam.rig.cameras[i].title(), camera.unit_m, seen),
          is_odd ? "that is no room: check Depth Units (D435: 0.001, D405: 0.0001) or depth_unit_m"
                 : ""});
-  }
-  if (!exam.depth_doubt.empty()) {
-    findings.push_back({Severity::kWarning, exam.depth_doubt,
-                        "say it behind the folder, as in ?depth_unit_m=0.001"});
   }
 }
 

@@ -29,7 +29,10 @@ InterruptGuard::InterruptGuard() {
 }
 
 InterruptGuard::~InterruptGuard() {
-  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    // What is still to be printed of the flight may find nobody who reads it.
+    if (!is_to_be_ignored(kSignals[i])) sigaction(kSignals[i], &before_[i], nullptr);
+  }
 }
 
 bool InterruptGuard::is_interrupted() const { return interrupted != 0; }

@@ -12,7 +12,8 @@ namespace swiftlet::app {
 /// stop instead of ending the program; a second Ctrl-C or SIGTERM ends it, a second SIGHUP does
 /// not, since a shell and the system each send one. Whoever has had a signal ignored (nohup) is
 /// obeyed. Output that nobody reads any more (SIGPIPE) and files that grow beyond their limit
-/// (SIGXFSZ) are errors of writing instead of the end of the flight. At most one at a time.
+/// (SIGXFSZ) are errors of writing instead of the end of the flight, and stay so. At most one at a
+/// time.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <set>
 
 #include "swiftlet/base/number_text.hpp"
@@ -22,6 +24,18 @@ std::string allowed(const Limits& limits) {
   if (std::isfinite(limits.low))
     return fmt::format("{} {}", limits.low_is_allowed ? "at least" : "greater than", limits.low);
   return "any finite number";
+}
+
+/// Not yaml-cpp's own conversion, which follows the locale of the host program; with YAML's words
+/// for what is no number or has no end, so that these can be refused by their name.
+std::optional<double> yaml_number(std::string_view text) {
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  if (text == ".nan" || text == ".NaN" || text == ".NAN") return std::nan("");
+  std::string_view word = text;
+  const bool is_negative = word.starts_with('-');
+  if (is_negative || word.starts_with('+')) word.remove_prefix(1);
+  if (word == ".inf" || word == ".Inf" || word == ".INF") return is_negative ? -kEndless : kEndless;
+  return parse_number(text);
 }
 
 }  // namespace
@@ -61,8 +75,7 @@ bool YamlSection::has(std::string_view key) {
 }
 
 double YamlSection::scalar(const YAML::Node& node, std::string_view key, const Limits& limits) {
-  // Not yaml-cpp's own conversion, which follows the locale of the host program.
-  const auto number = node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
+  const auto number = node.IsScalar() ? yaml_number(node.Scalar()) : std::nullopt;
   const double value = number.value_or(0.0);
   if (!number) {
     problem_->add(node.Mark(), fmt::format("'{}' of {} must be a number", key, title_));
