@@ -21,7 +21,8 @@ function(swiftlet_options target)
   endif()
   if(SWIFTLET_UNITY)  # several files to one compiler run: most of the time goes into headers that they share
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    target_compile_options(${target} PRIVATE -Wno-shadow -Wno-subobject-linkage)  # true of files, not of their sum
+    # True of files, not of their sum.
+    target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
   if(SWIFTLET_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
