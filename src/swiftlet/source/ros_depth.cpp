@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,10 +33,10 @@ class InfoHistory {
   }
   /// What held at a time: the newest of then; of the time before all, the first.
   [[nodiscard]] const ros::CameraInfo& at(Stamp stamp) const {
-    for (const ros::CameraInfo& info : history_ | std::views::reverse) {
-      if (info.header.stamp <= stamp) return info;
-    }
-    return history_.front();
+    const auto newest_by_then = std::find_if(
+        history_.rbegin(), history_.rend(),
+        [&](const ros::CameraInfo& info) { return info.header.stamp <= stamp; });
+    return newest_by_then == history_.rend() ? history_.front() : *newest_by_then;
   }
   [[nodiscard]] Stamp newest() const { return history_.back().header.stamp; }
 
