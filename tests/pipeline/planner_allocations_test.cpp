@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+// Beside the mapper's own test of allocations, because the counting stands in this program.
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "support/allocations.hpp"
+#include "support/hand_made_map.hpp"
+#include "swiftlet/query/frontier_map.hpp"
+#include "swiftlet/query/sweep.hpp"
+#include "swiftlet/query/view_gain.hpp"
+
+namespace swiftlet {
+namespace {
+
+TEST(Planner, asks_for_sweeps_frontiers_and_views_without_allocating) {
+  test::HandMadeMap world(0.1, {8, 8, 3});
+  world.fill({-3, -3, -1}, {3, 3, 1}, test::kFree);
+  world.fill({1.5, -1, -1}, {1.6, 1, 1}, test::kOccupied);
+  FrontierMap frontier;
+  ViewGain gain;
+  const auto T = Transform<World, Body>{} * forward_looking_camera();
+  const auto body = BodyShape::box({0.6, 0.4, 0.2});
+  const std::vector<Eigen::Vector3d> points{{-2, 0, 0}, {1, 1, 0}, {2, 0, 0}};
+  const auto path = SweepPath::along(points);
+  frontier.update(world.snapshot());
+  const ViewCamera camera{.max_range_m = 3.0};
+  ASSERT_GT(*gain.unknown_in_sight(world.snapshot(), T, camera), 0U);
+  world.fill({-3.3, -3, -1}, {-3, 3, 1}, test::kFree);
+  world.map().recentre({1.5, 0, 0}, nullptr);
+  const MapSnapshot map = world.snapshot();
+
+  const test::AllocationCount allocations;
+  const auto answer = sweep(map, *body, *path, {.clearance_reach_m = 0.5});
+  frontier.update(map);
+  const auto unknown = gain.unknown_in_sight(map, T, camera);
+  const std::size_t made = allocations.so_far();
+  EXPECT_EQ(made, 0U);
+  EXPECT_EQ(answer->state, SweepState::kBlocked);
+  EXPECT_GT(frontier.cell_count() * *unknown, 0U);
+}
+
+}  // namespace
+}  // namespace swiftlet
