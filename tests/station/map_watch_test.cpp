@@ -48,6 +48,25 @@ TEST(MapWatch, names_every_block_that_changed) {
   }
 }
 
+TEST(MapWatch, shows_the_trigger_box_where_the_window_was_moved_to) {
+  test::Random random;
+  RandomFlight flight(random);
+  flight.step();
+  MapWatch watch(flight.feed);
+  (void)watch.look();
+  FrameReport ahead;
+  ahead.has_shifted = true;
+  ahead.T_world_camera =
+      Transform<World, Camera>::trusted(Eigen::Quaterniond::Identity(), {1.0, 2.0, 0.5});
+  flight.feed.report(ahead);
+  (void)watch.look();
+  EXPECT_EQ(watch.status().trigger_centre_m, Eigen::Vector3d(1.0, 2.0, 0.5));
+  ahead.window_goal = {4.0, 2.0, 0.5};  // map.lookahead_s
+  flight.feed.report(ahead);
+  (void)watch.look();
+  EXPECT_EQ(watch.status().trigger_centre_m, Eigen::Vector3d(4.0, 2.0, 0.5));
+}
+
 TEST(MapWatch, begins_anew_with_a_new_world) {
   test::Random random;
   RandomFlight first(random);

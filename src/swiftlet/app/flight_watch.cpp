@@ -48,6 +48,7 @@ void FlightWatch::frame_done(const Frame& frame, const MapUpdate& update, const 
   report_.verdict = static_cast<std::uint8_t>(update.verdict);
   report_.camera = frame.camera;
   report_.has_shifted = update.shift.moved;
+  report_.window_goal = update.window_goal;
   report_.was_hidden = !update.was_published;
   report_.T_world_camera = frame.T_world_camera;
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {

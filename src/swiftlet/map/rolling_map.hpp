@@ -56,10 +56,10 @@ class RollingMap {
   [[nodiscard]] double voxel_m() const { return options_.voxel_m; }
   [[nodiscard]] const BlockWindow& window() const { return directory_.window(); }
 
-  /// Keeps the vehicle inside: when it has left the trigger box around the place of the last move
-  /// (or on the first call), moves the window so that the vehicle is within half a block of its
-  /// middle again. What leaves goes to `archive`, what enters comes from it; null drops and
-  /// forgets. REQUIRES: p_world finite and within +-10^6 m.
+  /// Keeps the vehicle, or a place ahead of it, in the middle: when it has left the trigger box
+  /// around the place of the last move (or on the first call), moves the window so that it is
+  /// within half a block of the middle again. What leaves goes to `archive`, what enters comes from
+  /// it; null drops and forgets. REQUIRES: p_world finite and within +-10^6 m.
   Shift recentre(const Eigen::Vector3d& p_world, BlockArchive* archive);
 
   /// Forgets every cell, as if nothing had ever been mapped; the next recentre() is a first one.

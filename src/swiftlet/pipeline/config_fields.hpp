@@ -44,6 +44,16 @@ void new_world(Rule& rule, Visit& visit) {
 }
 
 template <class Options, class Visit>
+void window(Options& o, Visit& visit) {
+  visit(
+      ConfigField{"map.lookahead_s",
+                  "the window's middle is where the vehicle will be by then, at most a quarter of "
+                  "the window ahead; 0: at the vehicle",
+                  0.0, 10.0},
+      o.lookahead_s);
+}
+
+template <class Options, class Visit>
 void quality(Options& o, Visit& visit) {
   visit(ConfigField{"quality.min_valid", "frames with a smaller share of valid pixels are refused",
                     0.0, 1.0},
@@ -159,6 +169,7 @@ template <class Config, class Visit>
 void visit_config(Config& c, Visit&& visit) {
   config_fields::map(c.map, visit);
   config_fields::new_world(c.on_new_world, visit);
+  config_fields::window(c.window, visit);
   config_fields::quality(c.quality, visit);
   config_fields::depth(c.depth, visit);
   config_fields::distortion(c.depth.distortion, visit);

@@ -37,12 +37,15 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
   if (config.integrate.fusion != kThesisFusion) thin_ = std::make_unique<ThinHits>();
   if (config.integrate.decay_s > 0.0)
     decay_ = std::make_unique<GhostDecay>(config.integrate.decay_s);
+  if (config.window.lookahead_s > 0.0)
+    lookahead_ = std::make_unique<Lookahead>(config.window, config.map);
 }
 
 void Mapper::begin_world(std::uint32_t pose_epoch) {
   map_.clear();
   *gate_ = FrameGate(config_.quality);
   if (decay_) *decay_ = GhostDecay(config_.integrate.decay_s);
+  if (lookahead_) *lookahead_ = Lookahead(config_.window, config_.map);
   frame_count_ = 0;  // rounding draws from it
   pose_epoch_ = pose_epoch;
   map_.publish(frame_count_);
@@ -91,7 +94,9 @@ MapUpdate Mapper::integrate(const Frame& frame) {
     return update;
   }
   enter_world_of(frame);  // only now: a frame without use clears nothing
-  update.shift = map_.recentre(frame.T_world_camera.translation(), archive_);
+  update.window_goal =
+      lookahead_ ? lookahead_->middle_for(frame) : frame.T_world_camera.translation();
+  update.shift = map_.recentre(update.window_goal, archive_);
   timer.finish(Stage::kRecentre);
   instrument.subpixel_px *= double{depth.noise_left};
   const auto shape =

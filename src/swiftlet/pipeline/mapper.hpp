@@ -14,6 +14,7 @@
 #include "swiftlet/integrate/thin_hits.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/pipeline/frame_gate.hpp"
+#include "swiftlet/pipeline/lookahead.hpp"
 #include "swiftlet/pipeline/mapper_config.hpp"
 #include "swiftlet/pipeline/stage_times.hpp"
 
@@ -23,6 +24,8 @@ namespace swiftlet {
 struct MapUpdate {
   FrameVerdict verdict = FrameVerdict::kIntegrated;
   RollingMap::Shift shift;
+  /// Where the middle of the window should be: at the camera, or ahead of it (map.lookahead_s).
+  Eigen::Vector3d window_goal = Eigen::Vector3d::Zero();
   IntegrationTally tally;
   std::size_t decayed = 0;    ///< cells that lost belief because nothing is seen where they are
   bool was_published = true;  ///< false: readers hold every snapshot slot, so they see an older map
@@ -87,6 +90,8 @@ class Mapper {
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<ThinHits> thin_;     // null: with the thesis's rule
   std::unique_ptr<GhostDecay> decay_;  // null: never
+  /// Null: the window stays around the vehicle.
+  std::unique_ptr<Lookahead> lookahead_;
   std::uint64_t frame_count_ = 0;
 };
 

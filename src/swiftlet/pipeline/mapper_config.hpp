@@ -13,6 +13,7 @@
 #include "swiftlet/map/log_odds.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/pipeline/config_fields.hpp"
+#include "swiftlet/pipeline/lookahead.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 
 namespace swiftlet {
@@ -40,6 +41,7 @@ inline constexpr std::string_view kKeepInNewWorld = "keep";
 struct MapperConfig {
   RollingMap::Options map;
   std::string on_new_world{kRefuseNewWorld};
+  WindowOptions window;
   QualityLimits quality;
   ConditionOptions depth;
   SensorOptions sensor;

@@ -61,7 +61,7 @@ void MapWatch::book(const FrameReport& frame, Look& look) {
   if (frame.verdict < verdicts_.size()) ++verdicts_[frame.verdict];
   last_frame_ = frame;
   const Eigen::Vector3d& p_world = frame.T_world_camera.translation();
-  if (frame.has_shifted) trigger_centre_m_ = p_world;
+  if (frame.has_shifted) trigger_centre_m_ = frame.window_goal.value_or(p_world);
   // Frames that were refused may be beyond.
   if (p_world.cwiseAbs().maxCoeff() < RollingMap::kMaxCoordinate_m) {
     centre_ = block_of(voxel_containing(p_world, facts_.voxel_m));

@@ -45,8 +45,10 @@ struct FrameReport {
   std::uint8_t verdict = 0;  ///< index into WorldFacts::verdicts
   std::uint8_t camera = 0;   ///< which one of the rig
   bool has_shifted = false;  ///< the window moved
-  bool was_hidden = false;   ///< readers held every snapshot, so the map they see is older
-  std::uint32_t world = 0;   ///< set by LiveFeed
+  /// Around which place, if not the camera's (map.lookahead_s).
+  std::optional<Eigen::Vector3d> window_goal{};
+  bool was_hidden = false;  ///< readers held every snapshot, so the map they see is older
+  std::uint32_t world = 0;  ///< set by LiveFeed
   Transform<World, Camera> T_world_camera;
   std::array<float, kMaxStages> stage_ms{};
   std::uint32_t readings = 0;
