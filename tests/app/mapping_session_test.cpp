@@ -195,7 +195,7 @@ TEST(MappingSession, maps_on_when_the_disk_is_full_and_tells_at_the_end_what_was
     const auto saved = (*session)->save();
     ASSERT_FALSE(saved);
     EXPECT_EQ(saved.error().code, ErrorCode::kIo);
-    EXPECT_THAT(saved.error().text(), ::testing::HasSubstr("blocks of the map, which are lost"));
+    EXPECT_THAT(saved.error().text(), ::testing::HasSubstr("the newest state of"));
   }
   const MappingSummary& summary = (*session)->summary();
   EXPECT_EQ(summary.integrated(), kFrames + 1U);

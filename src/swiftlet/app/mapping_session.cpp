@@ -164,9 +164,11 @@ Status MappingSession::save() {
   }
   if (summary_.blocks_lost > 0) {
     return fail(ErrorCode::kIo, options_.path,
-                fmt::format("the disk had no room for {} blocks of the map, which are lost{}",
-                            summary_.blocks_lost, failure_ ? " (" + failure_->what + ")" : ""),
-                "make room and fly again; what was written is saved");
+                fmt::format("the disk had no room for the newest state of {} blocks{}; the map is "
+                            "saved as of frame {}",
+                            summary_.blocks_lost, failure_ ? " (" + failure_->what + ")" : "",
+                            summary_.files.empty() ? 0 : summary_.files.back().frames),
+                "make room and fly again");
   }
   if (failure_) return tl::make_unexpected(*failure_);
   if (!aside_.empty()) MapFile::remove(aside_);

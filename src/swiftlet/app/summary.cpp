@@ -186,7 +186,7 @@ std::string summary_text(const MappingSummary& s) {
                       size_text(s.memory_bytes), s.blocks_evicted, s.blocks_restored);
   if (s.blocks_lost > 0)
     text +=
-        fmt::format("  lost       {} blocks of the map: the disk refused them\n", s.blocks_lost);
+        fmt::format("  lost       the newest state of {} blocks: the disk refused them\n", s.blocks_lost);
   return text + files_text(s.files);
 }
 

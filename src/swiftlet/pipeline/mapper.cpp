@@ -45,7 +45,6 @@ void Mapper::begin_world(std::uint32_t pose_epoch) {
   map_.clear();
   *gate_ = FrameGate(config_.quality);
   if (decay_) *decay_ = GhostDecay(config_.integrate.decay_s);
-  if (lookahead_) *lookahead_ = Lookahead(config_.window, config_.map);
   frame_count_ = 0;  // rounding draws from it
   pose_epoch_ = pose_epoch;
   map_.publish(frame_count_);

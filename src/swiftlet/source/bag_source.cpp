@@ -101,7 +101,7 @@ Expected<BagRequest> parse_request(std::string_view rest) {
 Status find_mount(const BagDepth& depth, const BagPoses& poses, BagRequest& request) {
   if (request.has_rig_file || poses.is_t265) return Done{};
   const std::string& file = request.depth_files.front();
-  if (depth.frame_id.empty()) {
+  if (depth.frame_id.empty() || poses.child_frame.empty()) {
     return fail(ErrorCode::kNotFound, file,
                 "nobody tells where the camera sits on what has the poses",
                 "describe the mount in a rig file and give it with --rig (docs/rig.md)");
