@@ -40,6 +40,10 @@ class MapSnapshot {
   /// was born. 0 where there is no block.
   [[nodiscard]] std::uint64_t version(const BlockIndex& index) const;
 
+  /// Tells whose versions these are: the same owner (std::owner_less) for all snapshots of one map,
+  /// and of no other one, even after the map has gone.
+  [[nodiscard]] std::weak_ptr<const void> map_identity() const { return store_; }
+
   /// Calls visit(BlockIndex, const VoxelBlock&) for every block that holds more than unknown cells,
   /// x fastest.
   template <class Visit>
