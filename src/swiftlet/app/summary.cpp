@@ -185,8 +185,8 @@ std::string summary_text(const MappingSummary& s) {
   text += fmt::format("  window     {}; {} blocks evicted, {} restored\n",
                       size_text(s.memory_bytes), s.blocks_evicted, s.blocks_restored);
   if (s.blocks_lost > 0)
-    text +=
-        fmt::format("  lost       the newest state of {} blocks: the disk refused them\n", s.blocks_lost);
+    text += fmt::format("  lost       the newest state of {} blocks: the disk refused them\n",
+                        s.blocks_lost);
   return text + files_text(s.files);
 }
 

@@ -33,9 +33,9 @@ class InfoHistory {
   }
   /// What held at a time: the newest of then; of the time before all, the first.
   [[nodiscard]] const ros::CameraInfo& at(Stamp stamp) const {
-    const auto newest_by_then = std::find_if(
-        history_.rbegin(), history_.rend(),
-        [&](const ros::CameraInfo& info) { return info.header.stamp <= stamp; });
+    const auto newest_by_then =
+        std::find_if(history_.rbegin(), history_.rend(),
+                     [&](const ros::CameraInfo& info) { return info.header.stamp <= stamp; });
     return newest_by_then == history_.rend() ? history_.front() : *newest_by_then;
   }
   [[nodiscard]] Stamp newest() const { return history_.back().header.stamp; }
