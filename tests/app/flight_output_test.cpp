@@ -13,11 +13,13 @@
 #include "app/support/run_program.hpp"
 #include "support/recordings.hpp"
 #include "support/temp_folder.hpp"
+#include "swiftlet/store/save_blocks.hpp"
 
 namespace swiftlet::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class FlightOutput : public ::testing::Test {
  protected:
@@ -52,6 +54,21 @@ class FlightOutput : public ::testing::Test {
 
   TempFolder folder_;
 };
+
+TEST_F(FlightOutput, of_a_flight_that_was_cut_off_is_told_so_by_info) {
+  VoxelBlock block;
+  block.clear();
+  for (const std::string flight : {"under way", "saved"}) {
+    ASSERT_TRUE(save_blocks(folder_ / (flight + ".swl"),
+                            std::vector{std::pair{BlockIndex{}, block}},
+                            {{"voxel_m", "0.1"}, {"frames", "1"}, {"flight", flight}}));
+  }
+  const Ended cut = swiftlet({"info", "under way.swl"});
+  EXPECT_THAT(cut.out, HasSubstr("the flight was cut off"));
+  EXPECT_THAT(cut.out, HasSubstr("under way.swl-wal, it is not here"))
+      << "what it held may be lost";
+  EXPECT_THAT(swiftlet({"info", "saved.swl"}).out, Not(HasSubstr("cut off")));
+}
 
 TEST_F(FlightOutput, overwrite_keeps_the_old_map_until_the_new_one_is_saved) {
   ASSERT_EQ(map_to("a.swl").exit_code, 0);

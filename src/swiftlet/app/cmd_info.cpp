@@ -10,6 +10,7 @@
 #include "swiftlet/app/bag_summary.hpp"
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/file_kind.hpp"
+#include "swiftlet/app/flight_file.hpp"
 #include "swiftlet/app/map_reader.hpp"
 #include "swiftlet/app/octomap_summary.hpp"
 #include "swiftlet/app/opened_map.hpp"
@@ -44,7 +45,7 @@ std::uintmax_t bytes_of(const SavedMap& map) {
   return unreadable ? 0 : bytes;
 }
 
-void print_text(const SavedMap& map, const MapSummary& summary) {
+void print_text(const SavedMap& map, const MapSummary& summary, const std::string& note) {
   fmt::print("{} ({})\n", visible(map.path().string()), size_text(bytes_of(map)));
   fmt::print("  frames     {}\n", map.frames());
   fmt::print("  cells      {} occupied, {} free, {} unknown in {} blocks\n",
@@ -55,6 +56,7 @@ void print_text(const SavedMap& map, const MapSummary& summary) {
     fmt::print("  bounds     x {:.2f} .. {:.2f}, y {:.2f} .. {:.2f}, z {:.2f} .. {:.2f} m\n",
                b->low.x(), b->high.x(), b->low.y(), b->high.y(), b->low.z(), b->high.z());
   }
+  if (!note.empty()) fmt::print("  note       {}\n", visible(note));
   for (const auto& [name, text] : map.meta()) {
     if (name == "frames" || name == "voxel_m") continue;
     if (text.find('\n') == std::string::npos) {
@@ -79,7 +81,7 @@ nlohmann::ordered_json salvage_json(const SalvageReport& report) {
   return json;
 }
 
-void print_json(const OpenedMap& opened, const MapSummary& summary) {
+void print_json(const OpenedMap& opened, const MapSummary& summary, const std::string& note) {
   const SavedMap& map = opened.file;
   nlohmann::ordered_json json{
       {"path", map.path().string()},
@@ -97,6 +99,7 @@ void print_json(const OpenedMap& opened, const MapSummary& summary) {
     json["bounds_m"] = {{"low", {b->low.x(), b->low.y(), b->low.z()}},
                         {"high", {b->high.x(), b->high.y(), b->high.z()}}};
   }
+  if (!note.empty()) json["note"] = note;
   if (opened.salvage) json["salvage"] = salvage_json(*opened.salvage);
   fmt::print("{}\n", json_text(json));
 }
@@ -132,7 +135,8 @@ Faults info(const InfoOptions& options) {
   if (!thresholds) return fault_of(std::move(thresholds));
   auto summary = summarize(map->file, *thresholds);
   if (!summary) return fault_of(std::move(summary));
-  options.as_json ? print_json(*map, *summary) : print_text(map->file, *summary);
+  const std::string note = cut_off_note(options.map, map->file.meta());
+  options.as_json ? print_json(*map, *summary, note) : print_text(map->file, *summary, note);
   return {};
 }
 

@@ -102,6 +102,15 @@ Status check_flight_file(const fs::path& path, bool overwrite, std::span<const f
               "choose another name with -o");
 }
 
+std::string cut_off_note(const fs::path& path, const MapMeta& meta) {
+  const auto flight = meta.find(std::string(kFlightKey));
+  if (flight == meta.end() || flight->second != kUnderWay || MapFile::writer_of(path)) return {};
+  const fs::path log = path.string() + "-wal";
+  std::string note = "the flight was cut off; this is what had been written by then";
+  if (!is_there(log)) note += fmt::format("; if there was a log, {}, it is not here", log.string());
+  return note;
+}
+
 Status mark_map(const fs::path& path, std::string_view key, std::string_view value) {
   auto file = MapFile::open_to_write(path, 0);
   if (!file) return forward_error(std::move(file));

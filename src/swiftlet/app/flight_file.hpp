@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "swiftlet/base/expected.hpp"
+#include "swiftlet/store/map_file.hpp"
 
 namespace swiftlet::app {
 
@@ -51,6 +52,10 @@ inline constexpr std::string_view kReplacesKey = "replaces";
 /// What set_map_aside() did is undone, unless another map has the name by now.
 [[nodiscard]] Status put_map_back(const std::filesystem::path& aside,
                                   const std::filesystem::path& path);
+
+/// What is to be told of the file of a flight that was cut off, which may lack its log, too; empty
+/// for all other maps. `meta` is that of the map at `path`.
+[[nodiscard]] std::string cut_off_note(const std::filesystem::path& path, const MapMeta& meta);
 
 /// Changes a line of `meta` in a map that nobody has open. Errors: those of MapFile.
 [[nodiscard]] Status mark_map(const std::filesystem::path& path, std::string_view key,
