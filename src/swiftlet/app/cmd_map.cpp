@@ -190,6 +190,7 @@ Faults map(const MapOptions& options) {
   (*session)->summary().intrinsics = info.intrinsics;
   const InterruptGuard interrupt;  // until the map is saved
   Status flight = fly(**source, **session, options, interrupt, watch->get());
+  source->reset();  // nobody listens to the rig any more, however long the page stays
   if (*watch) (*watch)->finish();
   const bool is_over = flight.has_value() && !(*session)->summary().was_interrupted;
   Faults faults = land(**session, config->mapper, std::move(flight), options.as_json);

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "swiftlet/app/private_folder.hpp"
+#include "swiftlet/store/private_folder.hpp"
 #include "swiftlet/store/save_blocks.hpp"
 
 namespace swiftlet::app {
@@ -30,17 +30,14 @@ Expected<std::vector<std::uint8_t>> read_bytes(const std::filesystem::path& path
 station::MapSaver map_saver(MapMeta meta) {
   return
       [meta = std::move(meta)](const station::MapCopy& map) -> Expected<std::vector<std::uint8_t>> {
-        const PrivateFolder folder;
-        if (folder.path().empty()) {
-          return fail(ErrorCode::kIo, "map file", "there is no room for temporary files",
-                      "set TMPDIR to a folder that can be written to");
-        }
+        const auto folder = PrivateFolder::create();
+        if (!folder) return tl::make_unexpected(folder.error());
         MapMeta told = meta;
         told["voxel_m"] = fmt::format("{}", map.voxel_m);
         if (map.frame_count > 0 || !told.contains("frames")) {
           told["frames"] = std::to_string(map.frame_count);
         }
-        const auto path = std::filesystem::path(folder.path()) / "map.swl";
+        const auto path = folder->path() / "map.swl";
         if (auto saved = save_blocks(path, map.blocks, told); !saved)
           return forward_error(std::move(saved));
         return read_bytes(path);

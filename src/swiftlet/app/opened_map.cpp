@@ -21,12 +21,9 @@ namespace {
 Expected<OpenedMap> lay_out_octomap(const std::string& path) {
   auto laid_out = read_octomap_blocks(path, OccupancyThresholds{});
   if (!laid_out) return forward_error(std::move(laid_out));
-  auto folder = std::make_unique<PrivateFolder>();
-  if (folder->path().empty()) {
-    return fail(ErrorCode::kIo, path, "there is no room for temporary files",
-                "set TMPDIR to a folder that can be written to");
-  }
-  const auto copy = std::filesystem::path(folder->path()) / "map.swl";
+  auto folder = PrivateFolder::create();
+  if (!folder) return forward_error(std::move(folder));
+  const auto copy = folder->path() / "map.swl";
   const std::vector<std::pair<BlockIndex, VoxelBlock>> blocks(laid_out->blocks.begin(),
                                                               laid_out->blocks.end());
   const MapMeta meta{{"voxel_m", fmt::format("{}", laid_out->summary.voxel_m)},
@@ -36,7 +33,7 @@ Expected<OpenedMap> lay_out_octomap(const std::string& path) {
   if (auto saved = save_blocks(copy, blocks, meta); !saved) return forward_error(std::move(saved));
   auto map = load_map(copy);
   if (!map) return forward_error(std::move(map));
-  return OpenedMap{std::move(folder), std::move(*map)};
+  return OpenedMap{std::move(*folder), std::move(*map)};
 }
 
 Expected<OpenedMap> salvage(const std::string& path) {
@@ -47,7 +44,7 @@ Expected<OpenedMap> salvage(const std::string& path) {
     for (const std::string& line : report.lines())
       std::fputs((visible("swiftlet: " + path + ": " + line) + "\n").c_str(), stderr);
   }
-  return OpenedMap{nullptr, std::move(map), std::move(report)};
+  return OpenedMap{std::nullopt, std::move(map), std::move(report)};
 }
 
 }  // namespace
@@ -65,7 +62,7 @@ Expected<OpenedMap> open_map(const std::string& path, bool is_salvaged) {
     return tl::make_unexpected(wrong_kind(path, *facts, "a map (.swl, .bt or .ot)"));
   auto map = load_map(path);
   if (!map) return forward_error(std::move(map));
-  return OpenedMap{nullptr, std::move(*map)};
+  return OpenedMap{std::nullopt, std::move(*map)};
 }
 
 }  // namespace swiftlet::app

@@ -4,11 +4,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <memory>
 #include <optional>
 #include <string>
 
-#include "swiftlet/app/private_folder.hpp"
+#include "swiftlet/store/private_folder.hpp"
 #include "swiftlet/store/salvage.hpp"
 #include "swiftlet/store/saved_map.hpp"
 
@@ -17,7 +16,7 @@ namespace swiftlet::app {
 /// A map that a command reads; an OctoMap is first laid out into one of ours, which is gone with
 /// this object.
 struct OpenedMap {
-  std::unique_ptr<PrivateFolder> folder;  // outlives the map in it
+  std::optional<PrivateFolder> folder;  // outlives the map in it
   SavedMap file;
   std::optional<SalvageReport> salvage{};  ///< if it was asked for
 };

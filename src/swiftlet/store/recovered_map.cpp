@@ -5,7 +5,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -131,23 +130,6 @@ bool has_logs(const fs::path& path) {
     if (!none && size > 0) return true;
   }
   return false;
-}
-
-Expected<PrivateFolder> PrivateFolder::create() {
-  std::error_code none;
-  std::string name = (fs::temp_directory_path(none) / "swiftlet-XXXXXX").string();
-  if (none || mkdtemp(name.data()) == nullptr) {
-    return fail(ErrorCode::kIo, "temporary files", "no folder can be made for them",
-                "set TMPDIR to a folder that can be written to");
-  }
-  PrivateFolder folder;
-  folder.path_ = name;
-  return folder;
-}
-
-PrivateFolder::~PrivateFolder() {
-  std::error_code ignored;
-  if (!path_.empty()) fs::remove_all(path_, ignored);
 }
 
 Expected<fs::path> copy_recovered(const fs::path& path, const PrivateFolder& folder) {

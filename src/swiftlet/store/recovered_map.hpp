@@ -6,29 +6,13 @@
 #include <filesystem>
 
 #include "swiftlet/base/expected.hpp"
+#include "swiftlet/store/private_folder.hpp"
 #include "swiftlet/store/sqlite.hpp"
 
 namespace swiftlet {
 
 /// Whether logs lie beside a map that must be taken into account to read it.
 [[nodiscard]] bool has_logs(const std::filesystem::path& path);
-
-/// A folder that nobody else can look into; gone with what is in it at the end.
-class PrivateFolder {
- public:
-  /// Errors: kIo.
-  [[nodiscard]] static Expected<PrivateFolder> create();
-  PrivateFolder(PrivateFolder&& other) noexcept : path_(std::move(other.path_)) {
-    other.path_.clear();
-  }
-  PrivateFolder& operator=(PrivateFolder&&) = delete;
-  ~PrivateFolder();
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  PrivateFolder() = default;
-  std::filesystem::path path_;
-};
 
 /// Copies a map and its logs into `folder` and lets SQLite finish or undo there what a killed
 /// writer had begun. Returns the copy: one file without logs. The map itself is not touched.

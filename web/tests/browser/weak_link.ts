@@ -14,13 +14,15 @@ export class WeakLink {
     this.#server = createServer((near) => {
       const far = connect(port, '127.0.0.1');
       this.#pairs.push([near, far]);
+      let isSwallowed = false; // the page waits on, whatever the server makes of the silence
       for (const [from, to] of [[near, far], [far, near]] as const) {
         from.on('data', (data) => {
           const isLost = this.losesSockets && from === near && data.includes('Upgrade: websocket');
+          isSwallowed ||= isLost;
           if (!isLost) to.write(data);
         });
         from.on('error', () => to.destroy());
-        from.on('close', () => to.destroy());
+        from.on('close', () => (isSwallowed && from === far) || to.destroy());
         if (this.isSilent) from.pause();
       }
     });
