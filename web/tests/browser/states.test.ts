@@ -55,7 +55,7 @@ async function fly(source: string): Promise<void> {
 }
 async function open(url: string): Promise<void> {
   page = await browser.newPage({viewport: {width: 1440, height: 900}, colorScheme: 'dark'});
-  await page.goto(url);
+  await page.goto(url, {timeout: 60_000}); // drawn in software, it takes its time on a busy machine
 }
 
 /// Boxes of what lies side by side, and how they touch where they must not; empty if all is well.

@@ -34,7 +34,7 @@ async function open(url: string): Promise<void> {
   page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
   page.on('pageerror', (error) => faults.push(error.message));
   page.on('request', (request) => requests.push(request.url()));
-  await page.goto(url);
+  await page.goto(url, {timeout: 60_000}); // drawn in software, it takes its time on a busy machine
 }
 const knowledge = () =>
   page.evaluate(() => {
