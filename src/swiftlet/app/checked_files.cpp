@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <iterator>
 #include <span>
 #include <string_view>
@@ -15,6 +14,7 @@
 #include "swiftlet/app/config_file.hpp"
 #include "swiftlet/app/file_kind.hpp"
 #include "swiftlet/app/map_reader.hpp"
+#include "swiftlet/file/file_content.hpp"
 #include "swiftlet/file/yaml_document_private.hpp"
 #include "swiftlet/source/rig_file.hpp"
 #include "swiftlet/store/octomap_import.hpp"
@@ -85,12 +85,9 @@ std::ptrdiff_t keys_known(const YAML::Node& root, const YamlKind& kind) {
 }
 
 Faults faults_in_yaml(const std::string& path) {
-  constexpr std::size_t kMostBytes = YamlLimits{}.bytes;
-  std::ifstream file(path, std::ios::binary);
-  std::string text(kMostBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  auto root = parse_yaml(text, path);
+  auto text = read_text_file(path, kMostSettingsBytes);
+  if (!text) return fault_of(std::move(text));
+  auto root = parse_yaml(*text, path);
   if (!root) return fault_of(std::move(root));
   if (!root->IsMap()) return faults_in_config(path);
   const auto* best = std::ranges::max_element(
