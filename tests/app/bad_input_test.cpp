@@ -59,7 +59,7 @@ const std::vector<BadInput> kBadInputs{
     {"rgb_png", [](const auto& rec) { all_images(rec, PngKind::kRgb8); }, "frame-000000.depth.png"},
     {"pose_with_nan",
      [](const auto& rec) { for_all_frames(rec, 2000, "nan 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"); },
-     "frame-000000.pose.txt: the rotation is not finite"},
+     "frame-000000.pose.txt: the pose matrix is not finite"},
     {"pose_not_orthonormal",
      [](const auto& rec) { for_all_frames(rec, 2000, "2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"); },
      "frame-000000.pose.txt: the rotation is not orthonormal"},
@@ -191,7 +191,7 @@ TEST_F(BadMap, a_bad_image_or_pose_is_named_and_the_rest_is_mapped) {
   const Ended ended = run({"map", "7scenes:rec", "-o", "b.swl"}, folder_.path());
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(ended.err, AllOf(HasSubstr("frame-000001.depth.png skipped: damaged PNG"),
-                               HasSubstr("frame-000003.pose.txt skipped: the rotation is not")));
+                               HasSubstr("frame-000003.pose.txt skipped: the pose matrix is not")));
   EXPECT_THAT(ended.out, HasSubstr("dropped    2 (1 image_unreadable, 1 pose_refused)"));
   EXPECT_EQ(run({"check", "b.swl"}, folder_.path()).exit_code, 0);
   EXPECT_EQ(load_map(folder_ / "b.swl")->frames(), 2U);

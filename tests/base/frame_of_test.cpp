@@ -3,6 +3,7 @@
 
 #include "swiftlet/base/frame_of.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -99,7 +100,9 @@ TEST(Transform, refuses_nan_and_infinity_in_every_entry) {
     for (Eigen::Index i = 0; i < 16; ++i) {
       Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
       M(i) = bad;
-      EXPECT_FALSE((Transform<World, Camera>::from_matrix(M))) << "entry " << i << " = " << bad;
+      const auto T = Transform<World, Camera>::from_matrix(M);
+      ASSERT_FALSE(T) << "entry " << i << " = " << bad;
+      EXPECT_THAT(T.error().what, testing::HasSubstr("not finite")) << "entry " << i;
     }
     for (Eigen::Index i = 0; i < 4; ++i) {
       Eigen::Quaterniond q = Eigen::Quaterniond::Identity();

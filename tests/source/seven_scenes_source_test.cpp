@@ -160,6 +160,8 @@ TEST_F(SevenScenes, leaves_out_and_counts_a_bad_pose_naming_file_and_fault) {
       {"nan 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "not finite"},
       {"1 0 0 nan\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "not finite"},
       {"1 0 0 -inf\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "not finite"},
+      {"-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n",
+       "not finite"},
       {"1 0 0.2 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "not orthonormal"},
       {"2 0 0 0\n0 2 0 0\n0 0 2 0\n0 0 0 1\n", "not orthonormal"},
       {"1 0 0 0\n0 1 0 0\n0 0 -1 0\n0 0 0 1\n", "not orthonormal"},

@@ -32,8 +32,11 @@ class Transform {
                                                 const Eigen::Vector3d& translation_m) {
     return checked(rotation, translation_m);
   }
-  /// From a homogeneous 4x4 matrix; the last row must be 0 0 0 1.
+  /// From a homogeneous 4x4 matrix; the last row must be 0 0 0 1. Recordings mark a lost pose by
+  /// a matrix full of -inf or NaN, so that is told first.
   [[nodiscard]] static Expected<Transform> from_matrix(const Eigen::Matrix4d& T) {
+    if (!T.allFinite())
+      return fail(ErrorCode::kCorruptInput, {}, "the pose matrix is not finite (inf or NaN)");
     if (!(T.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).isZero(1e-6)) {
       return fail(ErrorCode::kCorruptInput, {}, "the last row of the pose matrix is not 0 0 0 1");
     }
