@@ -12,6 +12,7 @@
 #include <limits>
 #include <vector>
 
+#include "query/round_solid.hpp"
 #include "support/hand_made_map.hpp"
 #include "support/seeds.hpp"
 #include "swiftlet/query/sweep.hpp"
@@ -19,8 +20,12 @@
 namespace swiftlet {
 namespace {
 
+using test::gap_by_hand;
 using test::HandMadeMap;
+using test::Placed;
 using test::Random;
+using test::random_solid;
+using test::Solid;
 using Vector = Eigen::Vector3d;
 
 constexpr double kLawCell_m = 0.1;
@@ -28,66 +33,6 @@ const double kLawDiagonal_m = std::sqrt(3.0) * kLawCell_m;
 
 /// The search of gap_by_hand() ends here, and a sweep leaves out nothing that is as near.
 constexpr double kTouch_m = 1e-8;
-
-/// A body as the test understands it: a box with round edges. A sphere has no size, a capsule is
-/// long along one axis alone, a box has no radius.
-struct Solid {
-  Vector centre = Vector::Zero();
-  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
-  Vector half = Vector::Zero();
-  double radius = 0.0;
-
-  [[nodiscard]] BodyShape shape() const {
-    if (half.isZero()) return *BodyShape::sphere(radius, centre);
-    if (radius == 0.0)
-      return *BodyShape::box(2.0 * half, Transform<Body, Body>::trusted(attitude, centre));
-    const Vector along = attitude * half;
-    return *BodyShape::capsule(centre - along, centre + along, radius);
-  }
-};
-
-Solid random_solid(Random& random) {
-  Solid solid;
-  if (random.chance(0.5)) solid.centre = random.vector(-0.3, 0.3);
-  solid.attitude = random.chance(0.3) ? Eigen::Quaterniond::Identity() : random.rotation();
-  const int kind = random.integer(0, 2);
-  if (kind == 1) solid.half.x() = random.real(0.01, 0.5);
-  if (kind == 2) solid.half = random.vector(0.005, 0.3);
-  if (kind != 2) solid.radius = random.real(0.005, 0.35);
-  return solid;
-}
-
-/// A solid at its place.
-struct Placed {
-  Placed(const Solid& solid, const Transform<World, Body>& T)
-      : R((T.rotation() * solid.attitude).toRotationMatrix()),
-        centre(T * solid.centre),
-        half(solid.half),
-        radius(solid.radius) {}
-
-  Eigen::Matrix3d R;
-  Vector centre;
-  Vector half;
-  double radius;
-};
-
-/// Distance from the cube [low, low + a cell]: between the nearest points of the inner box and the
-/// cube, found by going from one to the other and back. From above.
-double gap_by_hand(const Placed& solid, const Vector& low) {
-  const Vector high = low + Vector::Constant(kLawCell_m);
-  Vector on_cube = 0.5 * (low + high);
-  double before = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 300; ++i) {
-    const Vector seen = solid.R.transpose() * (on_cube - solid.centre);
-    const Vector on_box = solid.centre + solid.R * seen.cwiseMax(-solid.half).cwiseMin(solid.half);
-    on_cube = on_box.cwiseMax(low).cwiseMin(high);
-    const double now = (on_box - on_cube).norm();
-    if (now <= solid.radius) return 0.0;
-    if (now > before - 1e-12) break;
-    before = now;
-  }
-  return before - solid.radius;
-}
 
 Transform<World, Body> between(const TimedPose& a, const TimedPose& b, double share) {
   const auto &from = a.T_world_body, &to = b.T_world_body;
@@ -161,7 +106,7 @@ void expect_no_cell_is_missed(const World3& world, const Solid& solid,
     const Vector& middle = placed.centre;
     for (const VoxelIndex& v : world.not_free) {
       if ((low_corner(v) - middle).squaredNorm() > around * around) continue;
-      if (gap_by_hand(placed, low_corner(v)) > kTouch_m) continue;
+      if (gap_by_hand(placed, low_corner(v), kLawCell_m) > kTouch_m) continue;
       const bool is_unknown = world.map->log_odds(v) == kUnknownCell;
       expect_not_late(is_unknown ? answer.unknown : answer.occupied, leg, share);
     }
@@ -181,7 +126,7 @@ void expect_contact_is_real(const World3& world, const Solid& solid,
   EXPECT_EQ(OccupancyThresholds{}.classify(world.map->log_odds(contact.voxel)), contact.state);
   const std::size_t next = std::min(contact.leg + 1, poses.size() - 1);
   const auto T = between(poses[contact.leg], poses[next], contact.leg_share);
-  EXPECT_LE(gap_by_hand(Placed(solid, T), low_corner(contact.voxel)), kLawDiagonal_m);
+  EXPECT_LE(gap_by_hand(Placed(solid, T), low_corner(contact.voxel), kLawCell_m), kLawDiagonal_m);
 }
 
 TEST(SweepLaw, never_misses_a_cell_that_the_body_touches_and_never_invents_one) {
@@ -226,7 +171,7 @@ TEST(SweepLaw, clearance_is_never_more_than_what_plain_geometry_finds_and_hardly
           if (world.map->log_odds(v) == kUnknownCell) continue;
           const double around = solid.half.norm() + solid.radius + kLawDiagonal_m + least;
           if ((low_corner(v) - placed.centre).squaredNorm() > around * around) continue;
-          least = std::min(least, gap_by_hand(placed, low_corner(v)));
+          least = std::min(least, gap_by_hand(placed, low_corner(v), kLawCell_m));
         }
       });
       ASSERT_LE(answer->clearance->at_least_m, least + 1e-6);
