@@ -10,9 +10,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "app/support/run_program.hpp"
-#include "support/recordings.hpp"
-#include "support/temp_folder.hpp"
+#include "app/support/program_fixture.hpp"
 #include "swiftlet/store/save_blocks.hpp"
 
 namespace swiftlet::test {
@@ -21,39 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class FlightOutput : public ::testing::Test {
- protected:
-  void SetUp() override {
-    std::filesystem::create_directory(folder_ / "rec");
-    write_seven_scenes(folder_ / "rec");
-  }
-  Ended swiftlet(const std::vector<std::string>& arguments) const {
-    return run(arguments, folder_.path());
-  }
-  /// Maps the folder of three good frames.
-  Ended map_to(const std::string& file, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"map", "7scenes:rec", "-o", file};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return swiftlet(arguments);
-  }
-  std::vector<std::string> files(const std::string& begin) const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
-      const std::string name = entry.path().filename();
-      if (name.starts_with(begin)) names.push_back(name);
-    }
-    return names;
-  }
-  /// Wrong usage, in one clear line.
-  static void expect_refusal(const Ended& ended, const std::string& what) {
-    EXPECT_EQ(ended.exit_code, 2) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("swiftlet: "));
-    EXPECT_THAT(ended.err, HasSubstr(what));
-    EXPECT_EQ(ended.out, "");
-  }
-
-  TempFolder folder_;
-};
+class FlightOutput : public ProgramFixture {};
 
 TEST_F(FlightOutput, of_a_flight_that_was_cut_off_is_told_so_by_info) {
   VoxelBlock block;
@@ -83,13 +49,13 @@ TEST_F(FlightOutput, overwrite_keeps_the_old_map_until_the_new_one_is_saved) {
     const Ended ended =
         run({"map", "7scenes:rec", "-o", "a.swl", "--overwrite"}, folder_.path(), limit);
     if (ended.exit_code == 0) break;
-    EXPECT_EQ(std::ranges::count_if(files("a."), is_kept), 1) << limit << ended.err;
+    EXPECT_EQ(std::ranges::count_if(left_behind("a."), is_kept), 1) << limit << ended.err;
   }
   // The same command as often as one likes, whatever the ones before have left.
   ASSERT_EQ(map_to("a.swl", {"--overwrite"}).exit_code, 0);
   ASSERT_EQ(map_to("a.swl", {"--overwrite"}).exit_code, 0);
   EXPECT_EQ(content_of(folder_ / "a.swl.bak"), "the user's own");
-  for (const std::string& name : files("a.swl")) {
+  for (const std::string& name : left_behind("a.swl")) {
     EXPECT_TRUE(name == "a.swl" || name == "a.swl.bak") << name;
   }
 }
@@ -97,14 +63,14 @@ TEST_F(FlightOutput, overwrite_keeps_the_old_map_until_the_new_one_is_saved) {
 TEST_F(FlightOutput, overwrite_replaces_maps_and_nothing_else) {
   write_file(folder_ / "notes.txt", "dear diary");
   write_file(folder_ / "flight.bag", "#ROSBAG V2.0\n");
-  expect_refusal(map_to("notes.txt", {"--overwrite"}), "the file is no Swiftlet map");
-  expect_refusal(map_to("rec", {"--overwrite"}), "it exists and is not a file");
+  expect_refusal(map_to("notes.txt", {"--overwrite"}), 2, "the file is no Swiftlet map");
+  expect_refusal(map_to("rec", {"--overwrite"}), 2, "it exists and is not a file");
   EXPECT_EQ(content_of(folder_ / "notes.txt"), "dear diary");
 }
 
 TEST_F(FlightOutput, puts_the_time_of_the_start_into_the_name_of_the_map) {
   ASSERT_EQ(map_to("a-%t.swl").exit_code, 0);
-  EXPECT_THAT(files("a-"),
+  EXPECT_THAT(left_behind("a-"),
               ::testing::ElementsAre(::testing::MatchesRegex("a-....-..-..T..-..-..[.]swl")));
 }
 
@@ -133,16 +99,17 @@ TEST_F(FlightOutput, an_output_is_never_its_input_nor_a_map_whatever_it_is_calle
   fs::create_hard_link(folder_ / "a.swl", folder_ / "twin.png");
   fs::copy_file(folder_ / "a.swl", folder_ / "other.swl");
   for (const std::string out : {"a.swl", "./a.swl", "link.png", "twin.png"}) {
-    expect_refusal(swiftlet({"render", "a.swl", "-o", out}), "this is the input a.swl");
-    expect_refusal(swiftlet({"export", "a.swl", "--to", "ply", "-o", out}), "the input a.swl");
+    expect_refusal(swiftlet({"render", "a.swl", "-o", out}), 2, "this is the input a.swl");
+    expect_refusal(swiftlet({"export", "a.swl", "--to", "ply", "-o", out}), 2, "the input a.swl");
     EXPECT_EQ(content_of(folder_ / out), before) << out;
   }
-  expect_refusal(swiftlet({"render", "a.swl", "-o", "other.swl"}), "other.swl: this is a Swift");
-  expect_refusal(swiftlet({"export", "a.swl", "--to", "pcd", "-o", "other.swl"}), "a Swiftlet map");
-  expect_refusal(swiftlet({"render", "a.swl", "-o", "/dev/null"}), "is not a file");
+  expect_refusal(swiftlet({"render", "a.swl", "-o", "other.swl"}), 2, "other.swl: this is a Swift");
+  expect_refusal(swiftlet({"export", "a.swl", "--to", "pcd", "-o", "other.swl"}), 2,
+                 "a Swiftlet map");
+  expect_refusal(swiftlet({"render", "a.swl", "-o", "/dev/null"}), 2, "is not a file");
   write_file(folder_ / "wall.bag", "#ROSBAG V2.0\n");
   expect_refusal(
-      swiftlet({"calibrate", "distortion", "bag:wall.bag?pairing=nearest", "-o", "wall.bag"}),
+      swiftlet({"calibrate", "distortion", "bag:wall.bag?pairing=nearest", "-o", "wall.bag"}), 2,
       "this is the input wall.bag");
 }
 
