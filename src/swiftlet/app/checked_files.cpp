@@ -44,18 +44,18 @@ Faults faults_in_bag(const std::string& path) {
   return bag->fault ? Faults{*bag->fault} : Faults{};
 }
 
-Faults faults_in_config(const std::string& path) {
-  auto config = load_config({{path}, {}});
+Faults faults_in_config(const std::string& text, const std::string& path) {
+  auto config = parse_config(text, path);
   return config ? Faults{} : std::move(config).error();
 }
 
-Faults faults_in_rig(const std::string& path) { return fault_if_any(load_rig(path)); }
+Faults faults_in_rig(const std::string& text, const std::string& path) {
+  return fault_if_any(parse_rig(text, path));
+}
 
-Faults faults_in_scene(const std::string& path) {
+Faults faults_in_scene([[maybe_unused]] const std::string& text, const std::string& path) {
 #if SWIFTLET_HAS_EMBREE
-  const bool is_plain =
-      path.find('/') == std::string::npos;  // a name alone may be a built-in scene
-  return fault_if_any(sim::load_scene(is_plain ? "./" + path : path));
+  return fault_if_any(sim::parse_scene(text, path));
 #else
   return {{ErrorCode::kUnsupported, path, "this build knows no scenes",
            "install Embree and configure with -DSWIFTLET_WITH_EMBREE=ON"}};
@@ -65,7 +65,7 @@ Faults faults_in_scene(const std::string& path) {
 /// Files that are YAML, by the keys that stand in their first column.
 struct YamlKind {
   std::span<const std::string_view> keys;
-  Faults (*faults)(const std::string& path);
+  Faults (*faults)(const std::string& text, const std::string& path);
 };
 constexpr std::array<std::string_view, 7> kConfigKeys{
     "map", "quality", "depth", "distortion", "sensor", "integrate", "occupancy"};
@@ -89,10 +89,10 @@ Faults faults_in_yaml(const std::string& path) {
   if (!text) return fault_of(std::move(text));
   auto root = parse_yaml(*text, path);
   if (!root) return fault_of(std::move(root));
-  if (!root->IsMap()) return faults_in_config(path);
+  if (!root->IsMap()) return faults_in_config(*text, path);
   const auto* best = std::ranges::max_element(
       kYamlKinds, {}, [&](const YamlKind& kind) { return keys_known(*root, kind); });
-  return best->faults(path);
+  return best->faults(*text, path);
 }
 
 }  // namespace

@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <fstream>
 #include <string_view>
 #include <system_error>
+
+#include "swiftlet/file/file_content.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -18,6 +18,8 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr std::size_t kHead = 4096;
+constexpr const char* kTexts =
+    "'swiftlet check' reads configs, rigs and scenes; 'swiftlet map' takes lists of poses";
 constexpr const char* kUnpack = "unpack it and give what is inside";
 
 struct Signature {
@@ -49,6 +51,8 @@ constexpr std::array kSignatures{
               "a scene may use it as a mesh"},
     Signature{"ply\r\n"sv, FileKind::kOther, "a PLY file of points or triangles",
               "a scene may use it as a mesh"},
+    Signature{"\xff\xfe"sv, FileKind::kText, "a text in UTF-16", kTexts},
+    Signature{"\xfe\xff"sv, FileKind::kText, "a text in UTF-16", kTexts},
     Signature{"# .PCD"sv, FileKind::kOther, "a PCD file of points", ""},
 };
 
@@ -74,24 +78,6 @@ bool is_text(std::string_view head) {
   });
 }
 
-/// What is no regular file is not opened: a pipe would keep us waiting, a device may have no end.
-Status check_openable(const std::filesystem::path& path) {
-  using std::filesystem::file_type;
-  std::error_code unreadable;
-  const auto type = std::filesystem::status(path, unreadable).type();
-  if (type == file_type::regular) return Done{};
-  if (type == file_type::directory) {
-    return fail(ErrorCode::kIo, path.string(), "it is a folder, not a file",
-                "give a file; 'swiftlet map tum:FOLDER' maps a recording in a folder");
-  }
-  if (type == file_type::not_found)
-    return fail(ErrorCode::kNotFound, path.string(), "there is no such file", "check the path");
-  if (unreadable)
-    return fail(ErrorCode::kIo, path.string(), "it cannot be read: " + unreadable.message());
-  return fail(ErrorCode::kIo, path.string(), "it is a pipe, a socket or a device, not a file",
-              "give a file");
-}
-
 FileFacts facts_of(std::string_view head, bool has_log) {
   if (head.empty() && has_log) return {FileKind::kMap, "a Swiftlet map", ""};
   if (head.empty()) {
@@ -103,27 +89,22 @@ FileFacts facts_of(std::string_view head, bool has_log) {
     if (head.starts_with(known.bytes)) return {known.kind, known.what, known.remedy};
   }
   if (!is_text(head)) return unknown_data();
-  return {FileKind::kText, "a text",
-          "'swiftlet check' reads configs, rigs and scenes; 'swiftlet map' takes lists of poses"};
+  return {FileKind::kText, "a text", kTexts};
 }
 
 }  // namespace
 
 Expected<FileFacts> look_at_file(const std::filesystem::path& path) {
-  if (auto openable = check_openable(path); !openable) return forward_error(std::move(openable));
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return fail(ErrorCode::kIo, path.string(),
-                "it cannot be read: " + std::generic_category().message(errno),
-                "check that you may read it");
+  auto head = read_head(path, kHead);
+  if (!head) {
+    std::error_code none;
+    if (std::filesystem::is_directory(path, none))
+      head.error().remedy = "give a file; 'swiftlet map tum:FOLDER' maps a recording in a folder";
+    return forward_error(std::move(head));
   }
-  std::string head(kHead, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
   std::error_code none;
-  return facts_of(head, std::filesystem::exists(path.string() + "-wal", none) ||
-                            std::filesystem::exists(path.string() + "-journal", none));
+  return facts_of(*head, std::filesystem::exists(path.string() + "-wal", none) ||
+                             std::filesystem::exists(path.string() + "-journal", none));
 }
 
 Error wrong_kind(const std::filesystem::path& path, const FileFacts& facts,

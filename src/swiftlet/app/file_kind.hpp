@@ -27,8 +27,7 @@ struct FileFacts {
   std::string remedy;  ///< what to do with such a file instead; may be empty
 };
 
-/// What a file is, by its first bytes. Errors: kNotFound, kIo for folders, pipes and devices (which
-/// are not opened) and for what cannot be read.
+/// What a file is, by its first bytes. Errors: those of read_head().
 [[nodiscard]] Expected<FileFacts> look_at_file(const std::filesystem::path& path);
 
 /// The error of a command that wants something else: "it is a PNG picture, not a map".

@@ -64,6 +64,21 @@ Status check_mode(const std::string& where, mode_t mode) {
               S_ISDIR(mode) ? "name a file in it" : "write its content into a file, and name that");
 }
 
+/// `status` becomes that of what was opened, which need not be what was asked about before.
+Status check_opened(const OpenFile& file, const std::string& where, struct stat& status) {
+  if (file.descriptor() < 0 || ::fstat(file.descriptor(), &status) != 0)
+    return refused_by_system(where, errno);
+  return check_mode(where, status.st_mode);
+}
+
+/// Bytes read into `content` from `have` on; negative with the reason in errno.
+ssize_t read_some(const OpenFile& file, std::string& content, std::size_t have) {
+  while (true) {
+    const ssize_t got = ::read(file.descriptor(), content.data() + have, content.size() - have);
+    if (got >= 0 || errno != EINTR) return got;
+  }
+}
+
 }  // namespace
 
 Status check_regular_file(const std::filesystem::path& path) {
@@ -74,12 +89,10 @@ Status check_regular_file(const std::filesystem::path& path) {
 
 Expected<std::string> read_file(const std::filesystem::path& path, std::size_t most_bytes) {
   const std::string where = path.string();
+  struct stat status {};
   if (auto usable = check_regular_file(path); !usable) return forward_error(std::move(usable));
   const OpenFile file(path);
-  struct stat status {};
-  if (file.descriptor() < 0 || ::fstat(file.descriptor(), &status) != 0)
-    return refused_by_system(where, errno);
-  if (auto usable = check_mode(where, status.st_mode); !usable)
+  if (auto usable = check_opened(file, where, status); !usable)
     return forward_error(std::move(usable));
   const auto told_bytes = static_cast<std::size_t>(std::max<off_t>(status.st_size, 0));
   if (told_bytes > most_bytes) return too_long(where, most_bytes);
@@ -88,8 +101,7 @@ Expected<std::string> read_file(const std::filesystem::path& path, std::size_t m
   std::string content(told_bytes + 1, '\0');
   for (std::size_t have = 0;;) {
     if (have == content.size()) content.resize(have + std::max(kReadStep, have / 2));
-    const ssize_t got = ::read(file.descriptor(), content.data() + have, content.size() - have);
-    if (got < 0 && errno == EINTR) continue;
+    const ssize_t got = read_some(file, content, have);
     if (got < 0) return refused_by_system(where, errno);
     have += static_cast<std::size_t>(got);
     if (have > most_bytes) return too_long(where, most_bytes);
@@ -97,6 +109,23 @@ Expected<std::string> read_file(const std::filesystem::path& path, std::size_t m
     content.resize(have);
     return content;
   }
+}
+
+Expected<std::string> read_head(const std::filesystem::path& path, std::size_t most_bytes) {
+  const std::string where = path.string();
+  struct stat status {};
+  if (auto usable = check_regular_file(path); !usable) return forward_error(std::move(usable));
+  const OpenFile file(path);
+  if (auto usable = check_opened(file, where, status); !usable)
+    return forward_error(std::move(usable));
+  std::string head(most_bytes, '\0');
+  std::size_t have = 0;
+  for (ssize_t got = 1; got > 0 && have < most_bytes; have += static_cast<std::size_t>(got)) {
+    got = read_some(file, head, have);
+    if (got < 0) return refused_by_system(where, errno);
+  }
+  head.resize(have);
+  return head;
 }
 
 Expected<std::string> read_text_file(const std::filesystem::path& path, std::size_t most_bytes) {

@@ -29,8 +29,13 @@ inline constexpr std::size_t kMostMatrixBytes = std::size_t{1} << 16;
 [[nodiscard]] Expected<std::string> read_file(const std::filesystem::path& path,
                                               std::size_t most_bytes);
 
-/// The same of a text, as UTF-8 and without the byte order mark that some editors put before it; a
-/// mark of UTF-16 has the text turned into UTF-8.
+/// The first bytes of a regular file, at most `most_bytes`, whatever its length.
+/// Errors: those of check_regular_file(); kIo with the reason of the operating system.
+[[nodiscard]] Expected<std::string> read_head(const std::filesystem::path& path,
+                                              std::size_t most_bytes);
+
+/// As read_file() of a text, as UTF-8 and without the byte order mark that some editors put before
+/// it; a mark of UTF-16 has the text turned into UTF-8.
 [[nodiscard]] Expected<std::string> read_text_file(const std::filesystem::path& path,
                                                    std::size_t most_bytes);
 
