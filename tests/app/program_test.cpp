@@ -147,5 +147,46 @@ TEST_F(Program, checks_maps_and_configs_and_lists_every_fault) {
               AllOf(HasSubstr("bad.yaml:2: "), HasSubstr("bad.yaml:4: "), HasSubstr("none.swl")));
 }
 
+TEST_F(Program, check_tells_machines_what_it_tells_people) {
+  ASSERT_EQ(map_to("a.swl").exit_code, 0);
+  write_file(folder_ / "bad.yaml", "map:\n  voxel_cm: 10\ndepth:\n  downsample: many\n");
+  const Ended ended = swiftlet({"check", "a.swl", "bad.yaml", "none.swl", "--json"});
+  EXPECT_EQ(ended.exit_code, 1);
+  const json told = json::parse(ended.out);
+  EXPECT_EQ(told.at("faults"), 3);
+  ASSERT_EQ(told.at("files").size(), 3U);
+  EXPECT_EQ(told.at("files")[0],
+            (json{{"path", "a.swl"}, {"is_good", true}, {"findings", json::array()}}));
+  const json& bad = told.at("files")[1];
+  EXPECT_EQ(bad.at("is_good"), false);
+  EXPECT_EQ(bad.at("findings")[0].at("severity"), "fault");
+  EXPECT_EQ(bad.at("findings")[0].at("where"), "bad.yaml:2");
+  EXPECT_EQ(told.at("files")[2].at("findings")[0].at("what"), "there is no such file");
+  const json mended =
+      json::parse(swiftlet({"check", "a.swl", "--repair", "-o", "b.swl", "--json"}).out);
+  EXPECT_EQ(mended.at("files")[0].at("path"), "b.swl");
+  EXPECT_EQ(mended.at("salvage").at("is_whole"), true);
+}
+
+// ---- exit codes
+
+TEST_F(Program, a_file_that_is_missing_or_damaged_is_exit_code_1_for_every_reader) {
+  write_file(folder_ / "noise", std::string("\0\1\2\3", 4));
+  for (const std::string file : {"none", "noise", "rec"}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"check", file},
+          {"info", file},
+          {"render", file, "-o", "x.png"},
+          {"export", file, "--to", "ply", "-o", "x.ply"},
+          {"compare", file, file},
+          {"map", "bag:" + file},
+          {"map", "7scenes:rec", "--config", file, "-o", "x.swl"}}) {
+      const Ended ended = swiftlet(words);
+      const bool is_config_text = file == "noise" && words.size() > 3 && words[2] == "--config";
+      EXPECT_EQ(ended.exit_code, is_config_text ? 2 : 1) << words[0] << " " << file << ended.err;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet::test

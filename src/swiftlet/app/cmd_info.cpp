@@ -14,6 +14,7 @@
 #include "swiftlet/app/map_reader.hpp"
 #include "swiftlet/app/octomap_summary.hpp"
 #include "swiftlet/app/opened_map.hpp"
+#include "swiftlet/app/salvage_report.hpp"
 #include "swiftlet/app/summary.hpp"
 #include "swiftlet/app/visible_text.hpp"
 
@@ -70,15 +71,6 @@ void print_text(const SavedMap& map, const MapSummary& summary, const std::strin
       begin = end + 1;
     }
   }
-}
-
-nlohmann::ordered_json salvage_json(const SalvageReport& report) {
-  nlohmann::ordered_json json{{"kept", report.kept},
-                              {"missing", nullptr},
-                              {"is_whole", report.is_whole()},
-                              {"lines", report.lines()}};
-  if (report.missing) json["missing"] = *report.missing;
-  return json;
 }
 
 void print_json(const OpenedMap& opened, const MapSummary& summary, const std::string& note) {
