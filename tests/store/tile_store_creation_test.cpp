@@ -49,6 +49,22 @@ TEST(TileStoreCreation, says_where_it_cannot_write) {
   }
 }
 
+TEST(CutOffMap, without_its_log_is_read_and_nothing_is_left_beside_it) {
+  TempFolder folder;
+  const auto store = TileStore::create(folder / "a.swl", 0.1).value();
+  std::filesystem::create_directory(folder / "b");
+  const auto copy = folder / "b" / "a.swl";
+  std::filesystem::copy_file(folder / "a.swl", copy);
+  EXPECT_TRUE(check_map(copy).empty());
+  {
+    const auto map = load_map(copy);
+    ASSERT_TRUE(map.has_value()) << map.error().text();
+    EXPECT_EQ(map->block_count(), 0U);
+  }
+  const std::filesystem::directory_iterator files(folder / "b");
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+}
+
 TEST(TileStoreCreation, refuses_options_that_cannot_be_meant) {
   TempFolder folder;
   for (const TileStoreOptions& bad :

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -33,6 +35,18 @@ bool may_write_beside(const fs::path& path) {
          (!fs::exists(index, none) || access(index.c_str(), W_OK) == 0);
 }
 
+/// Whether a map that was cut off has lost its log, as when it was copied without. SQLite would
+/// make a new one, and an index of it, and leave both.
+bool has_lost_its_log(const fs::path& path) {
+  constexpr std::size_t kReadVersionAt = 19;  // of the header: 2 asks for a log
+  std::array<char, kReadVersionAt + 1> head{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(head.data(), head.size()) || head[kReadVersionAt] != 2) return false;
+  std::error_code none;
+  const fs::path real = fs::canonical(path, none);
+  return !none && !fs::exists(real.string() + "-wal", none) && !has_logs(path);
+}
+
 }  // namespace
 
 Expected<MapFile> MapFile::open_to_read(const fs::path& path, const fs::path& shown_as) {
@@ -48,9 +62,10 @@ Expected<MapFile> MapFile::open_to_read(const fs::path& path, const fs::path& sh
   }
   const auto writer = writer_of(path);
   // To SQLite, reading a log is to write an index of it; where it may not, it waits long in vain.
-  const bool is_alone = !writer && !may_write_beside(path);
+  const bool is_alone = !writer && (!may_write_beside(path) || has_lost_its_log(path));
   if (is_alone && has_logs(path)) return with(path, open_recovered(path));
-  // On read-only media nobody writes: without logs the file is the map.
+  // On read-only media nobody writes: without logs the file is the map. So it is where its log is
+  // lost; a flight that takes it up meanwhile only moves it aside.
   if (is_alone) return with(path, Database::open(path, Database::Mode::kImmutable));
   auto file = with(path, Database::open(path, Database::Mode::kReadOnly));
   if (file || file.error().code != ErrorCode::kIo) return file;
