@@ -183,8 +183,8 @@ TEST_F(FlightFile, may_not_be_an_input_nor_replace_what_is_no_map) {
 
 TEST_F(FlightFile, is_marked_without_harm_to_its_seal) {
   write_map(folder_ / "a.swl", kUnderWay);
-  ASSERT_TRUE(mark_map(folder_ / "a.swl", kFlightKey, kSavedWhole));
-  ASSERT_TRUE(mark_map(folder_ / "a.swl", "a new line", "its value"));
+  ASSERT_TRUE(mark_map(folder_ / "a.swl", {{std::string(kFlightKey), std::string(kSavedWhole)}}));
+  ASSERT_TRUE(mark_map(folder_ / "a.swl", {{"a new line", "its value"}, {"another", ""}}));
   EXPECT_THAT(check_map(folder_ / "a.swl"), IsEmpty());
   EXPECT_EQ(load_map(folder_ / "a.swl")->meta().at("flight"), kSavedWhole);
   EXPECT_THAT(names(), ElementsAre("a.swl"));

@@ -127,5 +127,14 @@ TEST_F(MapCommand, the_ray_method_is_chosen_by_its_option) {
   EXPECT_THAT(load_map(folder_ / "a.swl")->meta().at("config"), HasSubstr("line_drawing"));
 }
 
+TEST_F(MapCommand, the_map_keeps_what_was_to_be_told_of_the_flight) {
+  for (const int number : {0, 1, 2}) write_seven_scenes_frame(folder_ / "rec", number, flat(450));
+  ASSERT_EQ(map_to("a.swl").exit_code, 0);
+  EXPECT_THAT(swiftlet({"info", "a.swl"}).out, HasSubstr("depth_doubt all that it sees is nearer"));
+  const json told = json::parse(swiftlet({"info", "a.swl", "--json"}).out);
+  EXPECT_THAT(told.at("meta").at("depth_doubt").get<std::string>(), HasSubstr("nearer than 0.45"));
+  EXPECT_EQ(swiftlet({"check", "a.swl"}).exit_code, 0);
+}
+
 }  // namespace
 }  // namespace swiftlet::test

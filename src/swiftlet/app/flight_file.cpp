@@ -111,18 +111,20 @@ std::string cut_off_note(const fs::path& path, const MapMeta& meta) {
   return note;
 }
 
-Status mark_map(const fs::path& path, std::string_view key, std::string_view value) {
+Status mark_map(const fs::path& path, const MapMeta& lines) {
   auto file = MapFile::open_to_write(path, 0);
   if (!file) return forward_error(std::move(file));
   auto meta = file->meta();
   if (!meta) return forward_error(std::move(meta));
   auto seal = file->seal();
   if (!seal) return forward_error(std::move(seal));
-  if (const auto old = meta->find(std::string(key)); old != meta->end())
-    seal->meta_digest -= meta_checksum(key, old->second);
-  seal->meta_digest += meta_checksum(key, value);
   if (auto begun = file->begin(); !begun) return begun;
-  if (auto put = file->put_meta(std::string(key), std::string(value)); !put) return put;
+  for (const auto& [key, value] : lines) {
+    if (const auto old = meta->find(key); old != meta->end())
+      seal->meta_digest -= meta_checksum(key, old->second);
+    seal->meta_digest += meta_checksum(key, value);
+    if (auto put = file->put_meta(key, value); !put) return put;
+  }
   if (auto put = file->put_seal(*seal); !put) return put;
   if (auto done = file->commit(); !done) return done;
   return file->finish();

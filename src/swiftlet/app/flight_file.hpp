@@ -57,8 +57,7 @@ inline constexpr std::string_view kReplacesKey = "replaces";
 /// for all other maps. `meta` is that of the map at `path`.
 [[nodiscard]] std::string cut_off_note(const std::filesystem::path& path, const MapMeta& meta);
 
-/// Changes a line of `meta` in a map that nobody has open. Errors: those of MapFile.
-[[nodiscard]] Status mark_map(const std::filesystem::path& path, std::string_view key,
-                              std::string_view value);
+/// Changes or adds lines of `meta` in a map that nobody has open. Errors: those of MapFile.
+[[nodiscard]] Status mark_map(const std::filesystem::path& path, const MapMeta& lines);
 
 }  // namespace swiftlet::app

@@ -4,6 +4,7 @@
 #include "swiftlet/app/mapping_session.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 
@@ -145,10 +146,12 @@ void MappingSession::close_file() {
 /// Only now, when every file is closed: until then they are of a flight that may be cut off.
 void MappingSession::mark_saved() {
   const bool is_whole = !failure_ && summary_.blocks_lost == 0;
+  MapMeta lines{{std::string(kFlightKey), std::string(is_whole ? kSavedWhole : kSavedInPart)}};
+  if (!summary_.depth_doubt.empty()) lines["depth_doubt"] = summary_.depth_doubt;
+  if (!summary_.notes.empty()) lines["notes"] = fmt::format("{}", fmt::join(summary_.notes, "\n"));
   // The first, by whose name the next start judges, at last.
   for (auto path = paths_.rbegin(); path != paths_.rend(); ++path) {
-    if (auto marked = mark_map(*path, kFlightKey, is_whole ? kSavedWhole : kSavedInPart); !marked)
-      keep_failure(std::move(marked).error());
+    if (auto marked = mark_map(*path, lines); !marked) keep_failure(std::move(marked).error());
   }
 }
 
