@@ -91,6 +91,22 @@ TEST_F(FlightOutput, flies_on_when_a_real_disk_is_full_and_ends_with_a_clear_sen
   EXPECT_EQ(told.exit_code, 0) << told.err;
 }
 
+TEST_F(FlightOutput, a_disk_that_is_full_at_the_start_is_told_before_the_flight) {
+  const std::filesystem::path disk = folder_ / "disk";
+  std::filesystem::create_directory(disk);
+  const std::string place = "'" + disk.string() + "'";
+  if (std::system(("mount -t tmpfs -o size=64k none " + place + " 2> /dev/null").c_str()) != 0)
+    GTEST_SKIP() << "this system lets nobody mount a small disk (tmpfs)";
+  const Ended little = map_to("disk/a.swl");
+  write_file(disk / "much", std::string(64U << 10U, 'x'));
+  const Ended none = map_to("disk/a.swl");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(disk), {}), 1) << "much";
+  EXPECT_EQ(std::system(("umount " + place).c_str()), 0);
+  expect_refusal(little, 1, "disk/a.swl: the disk has 65 kB left");
+  expect_refusal(none, 1, "disk/a.swl: there is no space left");
+  EXPECT_THAT(none.err, Not(HasSubstr("frames"))) << "none was read";
+}
+
 TEST_F(FlightOutput, an_output_is_never_its_input_nor_a_map_whatever_it_is_called) {
   namespace fs = std::filesystem;
   ASSERT_EQ(map_to("a.swl").exit_code, 0);

@@ -51,7 +51,8 @@ Status check_name_is_free(const MapOptions& options) {
   if (!recovered) return forward_error(std::move(recovered));
   for (const std::string& note : *recovered)
     std::fputs(("swiftlet: " + note + "\n").c_str(), stderr);
-  return check_flight_file(options.out, options.overwrite, input_files(options.source));
+  auto free = check_flight_file(options.out, options.overwrite, input_files(options.source));
+  return free ? check_room_for_flight(options.out) : free;
 }
 
 tl::expected<LoadedConfig, Faults> config_of(const MapOptions& options) {

@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 
 #include "swiftlet/store/file_names.hpp"
+#include "swiftlet/store/fresh_file.hpp"
 #include "swiftlet/store/map_file.hpp"
 
 namespace swiftlet::app {
@@ -109,6 +111,22 @@ std::string cut_off_note(const fs::path& path, const MapMeta& meta) {
   std::string note = "the flight was cut off; this is what had been written by then";
   if (!is_there(log)) note += fmt::format("; if there was a log, {}, it is not here", log.string());
   return note;
+}
+
+Status check_room_for_flight(const fs::path& path) {
+  constexpr std::uintmax_t kLeastBytes = 96U << 10U;  // a map of no blocks, its log and their index
+  constexpr std::array<unsigned char, 4096> kPage{};
+  auto probe = make_fresh_file(path, kPage);
+  if (!probe) return forward_error(std::move(probe));
+  std::error_code unknown;
+  const auto space = fs::space(*probe, unknown);
+  std::error_code ignored;
+  fs::remove(*probe, ignored);
+  if (unknown || space.available + kPage.size() >= kLeastBytes) return Done{};
+  return fail(
+      ErrorCode::kIo, path.string(),
+      fmt::format("the disk has {} kB left, too little to begin a map", space.available / 1000),
+      "free some space");
 }
 
 Status mark_map(const fs::path& path, const MapMeta& lines) {

@@ -46,6 +46,10 @@ inline constexpr std::string_view kReplacesKey = "replaces";
 [[nodiscard]] Status check_flight_file(const std::filesystem::path& path, bool overwrite,
                                        std::span<const std::filesystem::path> inputs);
 
+/// Whether the disk takes a new map there by now, which a file tells that is gone again at once.
+/// Errors: kIo if it has no room, or the folder cannot be written.
+[[nodiscard]] Status check_room_for_flight(const std::filesystem::path& path);
+
 /// Gives a map a second name, that of a file nobody else has, so that it outlives its first.
 /// Errors: kIo.
 [[nodiscard]] Expected<std::filesystem::path> set_map_aside(const std::filesystem::path& path);
