@@ -127,6 +127,15 @@ TEST(JoinedSource, goes_on_after_its_clock_was_set_back_and_pairs_nothing_across
   });
 }
 
+TEST(JoinedSource, does_not_call_the_tracker_silent_when_the_clock_is_set_ahead) {
+  Flight flight;
+  flight.clock.sets.emplace_back(4.0, 3600.0);
+  const Landed landed = fly({flight.images()}, flight.poses());
+  EXPECT_GE(landed.frames.size(), 296U);
+  EXPECT_EQ(landed.tally.stale_alarms, 0U);
+  EXPECT_EQ(landed.tally.image_clock.ahead, 1U);
+}
+
 TEST(JoinedSource, follows_a_set_clock_with_several_cameras_too) {
   Flight flight;
   flight.clock.sets.emplace_back(4.0, -30.0);

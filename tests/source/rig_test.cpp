@@ -87,6 +87,33 @@ TEST(Rig, decides_at_the_end_what_still_waits) {
   EXPECT_EQ(lost(rig, FrameLoss::kNoPose), 1U);
 }
 
+TEST(Rig, raises_no_alarm_for_a_clock_that_is_set_ahead_but_for_a_tracker_that_does_not_follow) {
+  constexpr std::int64_t kHour_ms = 3'600'000;
+  for (const bool is_silent : {false, true}) {
+    Rig rig({});
+    for (int t = 0; t < 1000; t += 33) {
+      rig.push(pose_at(t));
+      rig.push(depth_at(t));
+    }
+    for (int t = 1000; t < 3000; t += 33) {
+      rig.push(depth_at(kHour_ms + t));  // images see the new time first
+      if (!is_silent) rig.push(pose_at(kHour_ms + t));
+      EXPECT_EQ(rig.is_pose_stale(), is_silent && t > 1500) << t;
+      while (rig.pop()) {
+      }
+    }
+    EXPECT_EQ(rig.tally().stale_alarms, is_silent ? 1U : 0U);
+  }
+}
+
+TEST(Rig, raises_the_alarm_also_for_a_camera_of_one_image_in_two_seconds) {
+  Rig rig({});
+  rig.push(pose_at(0));
+  rig.push(pose_at(100));
+  for (int t = 0; t <= 4000; t += 2000) rig.push(depth_at(t));
+  EXPECT_EQ(rig.tally().stale_alarms, 1U);
+}
+
 TEST(Rig, loses_images_before_the_first_pose_and_in_gaps_by_their_reasons) {
   Rig rig({.poses = {.track = {.max_gap = milliseconds(100)}, .gates = {}}});
   rig.push(depth_at(0));

@@ -53,6 +53,7 @@ template <class IsOld>
 void Rig::lose_waiting(IsOld is_old) {
   tally_.of(FrameLoss::kNoPose) += std::erase_if(waiting_, is_old);
   newest_depth_.reset();
+  resumed_at_.reset();
   for (const DepthFrame& depth : waiting_)
     newest_depth_ = newest_depth_ ? std::max(*newest_depth_, depth.stamp) : depth.stamp;
 }
@@ -83,6 +84,7 @@ void Rig::push(DepthFrame depth) {
     return;
   }
   last = depth.stamp;
+  note_step_to(depth.stamp);
   newest_depth_ = newest_depth_ ? std::max(*newest_depth_, depth.stamp) : depth.stamp;
   watch_staleness();
   if (waiting_.size() == options_.max_waiting * options_.cameras.size()) {
@@ -94,10 +96,19 @@ void Rig::push(DepthFrame depth) {
   waiting_.insert(place, std::move(depth));
 }
 
+/// Notices images whose time has stepped ahead: that the poses' has not yet says nothing of them.
+/// Once only until they have followed, or a silent tracker would be noticed by no slow camera.
+void Rig::note_step_to(Stamp stamp) {
+  if (!newest_depth_ || stamp - *newest_depth_ <= options_.stale_after) return;
+  const auto newest = poses_.newest();
+  if (!resumed_at_ || (newest && *newest >= *resumed_at_)) resumed_at_ = stamp;
+}
+
 /// Counts each time the tracker falls silent, and notices when it is back.
 void Rig::watch_staleness() {
   if (!newest_depth_ || !poses_.newest()) return;
-  const bool is_stale = *newest_depth_ - *poses_.newest() > options_.stale_after;
+  const Stamp since = std::max(*poses_.newest(), resumed_at_.value_or(*poses_.newest()));
+  const bool is_stale = *newest_depth_ - since > options_.stale_after;
   if (is_stale && !is_stale_) ++tally_.stale_alarms;
   is_stale_ = is_stale;
 }

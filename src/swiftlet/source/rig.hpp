@@ -48,7 +48,8 @@ struct RigOptions {
   std::size_t max_waiting = 8;  ///< depth images a camera that may wait for their pose
   /// No image arrives after one that is stamped this much later.
   Nanoseconds reorder_window = std::chrono::milliseconds(40);
-  /// The tracker is silent when images are this much ahead of its newest pose.
+  /// The tracker is silent when images are this much ahead of its newest pose; after a step of
+  /// their own time, when they have gone on for so long without a pose.
   Nanoseconds stale_after = std::chrono::milliseconds(500);
 };
 
@@ -114,6 +115,7 @@ class Rig {
   [[nodiscard]] std::optional<FrameLoss> loss_of(const DepthFrame& depth, PoseMiss miss) const;
   [[nodiscard]] Frame posed(DepthFrame depth, const TrackedPose& pose);
   void watch_staleness();
+  void note_step_to(Stamp stamp);
   void count_refused_poses();
   template <class IsOld>
   void lose_waiting(IsOld is_old);
@@ -126,8 +128,9 @@ class Rig {
   std::optional<Order> last_decided_;
   std::optional<Order> last_delivered_;  // by this clock of the poses
   std::optional<Stamp> newest_depth_;
-  std::optional<Stamp> last_out_;  // of the newest frame
-  Nanoseconds out_offset_{0};      // of frames' stamps against images': a set clock is taken out
+  std::optional<Stamp> resumed_at_;  // of the image after a pause or a clock that was set ahead
+  std::optional<Stamp> last_out_;    // of the newest frame
+  Nanoseconds out_offset_{0};        // of frames' stamps against images': a set clock is taken out
   bool is_out_offset_known_ = true;
   FrameTally tally_;
   RigFacts facts_;
