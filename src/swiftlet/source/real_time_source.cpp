@@ -22,6 +22,7 @@ class RealTimeSource final : public FrameSource {
  public:
   RealTimeSource(FrameSourcePtr source, const QueuePolicy& policy)
       : source_(std::move(source)), info_(source_->info()), policy_(policy) {
+    if (source_->facts() != nullptr) facts_ = source_facts_ = *source_->facts();
     source_->stop_when([this] {  // asked by the player
       const std::lock_guard lock(mutex_);
       ask_source();
@@ -64,6 +65,8 @@ class RealTimeSource final : public FrameSource {
 
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return tally_; }
+  const RigFacts* facts() const override { return facts_ ? &*facts_ : nullptr; }
+  const RigOptions* rig() const override { return source_->rig(); }  // never changes
   void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
   std::vector<RigEvent> take_events() override {
     const std::lock_guard lock(mutex_);
@@ -78,6 +81,7 @@ class RealTimeSource final : public FrameSource {
   /// REQUIRES: the lock.
   void take_stock() {
     tally_ = source_tally_;
+    facts_ = source_facts_;
     tally_.of(FrameLoss::kOverload) += overloaded_;
     tally_.delivered = delivered_;
   }
@@ -85,6 +89,7 @@ class RealTimeSource final : public FrameSource {
   /// By the player. REQUIRES: the lock.
   void ask_source() {
     source_tally_ = source_->tally();
+    if (source_facts_) source_facts_ = *source_->facts();
     for (RigEvent& event : source_->take_events()) events_.add(std::move(event));
   }
 
@@ -134,7 +139,8 @@ class RealTimeSource final : public FrameSource {
   FrameSourcePtr source_;  // the player's
   const SourceInfo info_;
   const QueuePolicy policy_;
-  FrameTally tally_;  // the reader's
+  FrameTally tally_;  // the reader's, as are these
+  std::optional<RigFacts> facts_;
   std::size_t delivered_ = 0;
   std::function<bool()> is_unwanted_;
 
@@ -142,6 +148,7 @@ class RealTimeSource final : public FrameSource {
   std::condition_variable changed_;
   std::deque<Frame> queue_;
   FrameTally source_tally_;
+  std::optional<RigFacts> source_facts_;  // nullopt: it is no rig
   RigEventList events_;
   std::size_t overloaded_ = 0;
   std::optional<Error> fault_;
