@@ -9,6 +9,7 @@
 #include <atomic>
 #include <thread>
 
+#include "support/no_threads.hpp"
 #include "swiftlet/source/live_rig.hpp"
 
 namespace swiftlet {
@@ -97,10 +98,10 @@ class Keeper : public ::testing::Test {
 };
 
 TEST_F(Keeper, starts_what_was_unplugged_again_and_the_flight_goes_on) {
-  LiveKeeper keeper(rig_, {camera_.instrument()}, kQuick);
+  const auto keeper = LiveKeeper::start(rig_, {camera_.instrument()}, kQuick).value();
   frames(3);
   camera_.is_plugged = false;
-  keeper.note_unplugged(0);
+  keeper->note_unplugged(0);
   std::thread hand([this] {
     std::this_thread::sleep_for(milliseconds(100));
     camera_.is_plugged = true;
@@ -119,8 +120,18 @@ TEST_F(Keeper, starts_what_was_unplugged_again_and_the_flight_goes_on) {
   EXPECT_THAT(events[2].what, HasSubstr("no such camera"));
 }
 
+#ifdef SWIFTLET_CAN_LACK_THREADS
+TEST_F(Keeper, says_so_if_the_system_has_no_thread_for_it) {
+  const test::NoThreads none;
+  const auto keeper = LiveKeeper::start(rig_, {camera_.instrument()}, kQuick);
+  ASSERT_FALSE(keeper);
+  EXPECT_EQ(keeper.error().code, ErrorCode::kOutOfMemory);
+  EXPECT_EQ(camera_.starts, 0);
+}
+#endif
+
 TEST_F(Keeper, starts_what_says_nothing_any_more_again) {
-  LiveKeeper keeper(rig_, {camera_.instrument()}, kQuick);
+  const auto keeper = LiveKeeper::start(rig_, {camera_.instrument()}, kQuick).value();
   frames(3);
   camera_.is_hanging = true;
   EXPECT_TRUE(fly_until(RigEventKind::kRestarted));
@@ -132,7 +143,7 @@ TEST_F(Keeper, starts_what_says_nothing_any_more_again) {
 TEST_F(Keeper, tells_once_of_a_silence_that_no_restart_cures) {
   auto instrument = camera_.instrument();
   instrument.can_restart = false;
-  LiveKeeper keeper(rig_, {std::move(instrument)}, kQuick);
+  const auto keeper = LiveKeeper::start(rig_, {std::move(instrument)}, kQuick).value();
   frames(3);
   camera_.is_hanging = true;
   std::this_thread::sleep_for(milliseconds(800));  // twice as long as it takes
@@ -150,7 +161,8 @@ TEST_F(Keeper, does_not_take_one_instrument_for_another) {
   auto options = kQuick;
   options.first_sample = milliseconds(30);
   other.is_hanging = true;
-  LiveKeeper keeper(rig_, {camera_.instrument(), std::move(dead)}, options);
+  const auto keeper =
+      LiveKeeper::start(rig_, {camera_.instrument(), std::move(dead)}, options).value();
   EXPECT_TRUE(fly_until(RigEventKind::kStalled, 2)) << "started again and again";
   EXPECT_EQ(camera_.starts, 1) << "the other one is well";
   for (const RigEvent& event : rig_.take_events()) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "store/store_support.hpp"
+#include "support/no_threads.hpp"
 
 namespace swiftlet {
 namespace {
@@ -64,6 +65,18 @@ TEST(CutOffMap, without_its_log_is_read_and_nothing_is_left_beside_it) {
   const std::filesystem::directory_iterator files(folder / "b");
   EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }
+
+#ifdef SWIFTLET_CAN_LACK_THREADS
+TEST(TileStoreCreation, says_so_and_leaves_nothing_if_the_system_has_no_thread_for_it) {
+  TempFolder folder;
+  const test::NoThreads none;
+  const auto store =
+      TileStore::create(folder / "a.swl", 0.1, {.pending_blocks = 16, .cache_blocks = 16});
+  ASSERT_FALSE(store.has_value());
+  EXPECT_EQ(store.error().code, ErrorCode::kOutOfMemory);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+#endif
 
 TEST(TileStoreCreation, refuses_options_that_cannot_be_meant) {
   TempFolder folder;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "swiftlet/base/contract.hpp"
+#include "swiftlet/base/start_thread.hpp"
 
 namespace swiftlet {
 
@@ -16,7 +17,16 @@ LiveKeeper::LiveKeeper(LiveSink& sink, std::vector<LiveInstrument> instruments,
                        const Options& options)
     : sink_(sink), options_(options), unplugged_(instruments.size(), false) {
   for (LiveInstrument& instrument : instruments) kept_.push_back({std::move(instrument)});
-  thread_ = std::thread([this] { keep(); });
+}
+
+Expected<std::unique_ptr<LiveKeeper>> LiveKeeper::start(LiveSink& sink,
+                                                        std::vector<LiveInstrument> instruments,
+                                                        const Options& options) {
+  std::unique_ptr<LiveKeeper> keeper(new LiveKeeper(sink, std::move(instruments), options));
+  auto thread = start_thread("live rig", [&own = *keeper] { own.keep(); });
+  if (!thread) return forward_error(std::move(thread));
+  keeper->thread_ = std::move(*thread);
+  return keeper;
 }
 
 LiveKeeper::~LiveKeeper() {
@@ -25,7 +35,7 @@ LiveKeeper::~LiveKeeper() {
     is_stopped_ = true;
   }
   changed_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void LiveKeeper::note_unplugged(std::size_t instrument) {

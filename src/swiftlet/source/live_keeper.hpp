@@ -46,8 +46,9 @@ class LiveKeeper {
     Nanoseconds first_sample = std::chrono::seconds(5);   ///< a T265 takes two to start
     Nanoseconds stalled_after = std::chrono::seconds(1);
   };
-  /// REQUIRES: the sink outlives the keeper.
-  LiveKeeper(LiveSink& sink, std::vector<LiveInstrument> instruments, const Options& options);
+  /// Errors: kOutOfMemory if the system starts no thread. REQUIRES: the sink outlives the keeper.
+  [[nodiscard]] static Expected<std::unique_ptr<LiveKeeper>> start(
+      LiveSink& sink, std::vector<LiveInstrument> instruments, const Options& options);
   LiveKeeper(const LiveKeeper&) = delete;
   LiveKeeper& operator=(const LiveKeeper&) = delete;
   ~LiveKeeper();
@@ -64,6 +65,7 @@ class LiveKeeper {
     bool has_run = false;
     std::string complaint{};  // the last reason why it did not start, told once
   };
+  LiveKeeper(LiveSink& sink, std::vector<LiveInstrument> instruments, const Options& options);
   void keep();
   void look_after(Kept& kept, bool is_unplugged);
   void connect(Kept& kept);

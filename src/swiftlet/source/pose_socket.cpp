@@ -23,6 +23,7 @@
 #include <utility>
 
 #include "swiftlet/base/number_text.hpp"
+#include "swiftlet/base/start_thread.hpp"
 #include "swiftlet/source/pose_guard.hpp"
 #include "swiftlet/source/pose_line.hpp"
 
@@ -57,14 +58,20 @@ class PoseSocket final : public LiveStream {
         path_(address.socket),
         guard_(std::move(guard)),
         axes_(axes),
-        sink_(sink),
-        thread_([this] { receive(); }) {}
+        sink_(sink) {}
   PoseSocket(const PoseSocket&) = delete;
   PoseSocket& operator=(const PoseSocket&) = delete;
   ~PoseSocket() override {
     (void)eventfd_write(wake_.get(), 1);
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
     if (!path_.empty()) ::unlink(path_.c_str());
+  }
+
+  Status start() {
+    auto thread = start_thread(name_, [this] { receive(); });
+    if (!thread) return forward_error(std::move(thread));
+    thread_ = std::move(*thread);
+    return Done{};
   }
 
  private:
@@ -223,8 +230,10 @@ Expected<LiveStreamPtr> listen_for_poses(const PoseAddress& address, BodyAxes ax
     sink.note({RigEventKind::kOpenPort, address.title(),
                "whoever reaches it can move the map; give a key with pose_key=FILE (docs/rig.md)"});
   }
-  return std::make_unique<PoseSocket>(std::move(socket), std::move(wake), address, std::move(guard),
-                                      axes, sink);
+  auto poses = std::make_unique<PoseSocket>(std::move(socket), std::move(wake), address,
+                                            std::move(guard), axes, sink);
+  if (auto started = poses->start(); !started) return forward_error(std::move(started));
+  return poses;
 }
 
 Expected<LiveStreamPtr> listen_for_poses(std::uint16_t port, BodyAxes axes, LiveSink& sink) {

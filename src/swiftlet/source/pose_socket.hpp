@@ -33,7 +33,8 @@ struct PoseAddress {
 /// most once a second with how many there were; so is a port that others than this computer reach
 /// without a key (kOpenPort). Its own thread delivers into the sink, which outlives it.
 ///
-/// Errors: kIo if the port is taken or not allowed; those of load_pose_key().
+/// Errors: kIo if the port is taken or not allowed; kOutOfMemory if the system starts no thread;
+/// those of load_pose_key().
 [[nodiscard]] Expected<LiveStreamPtr> listen_for_poses(const PoseAddress& address, BodyAxes axes,
                                                        LiveSink& sink);
 /// On a UDP port of the loopback address, without a key.

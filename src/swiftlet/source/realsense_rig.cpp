@@ -87,7 +87,9 @@ Expected<std::unique_ptr<RealsenseRig>> RealsenseRig::start(RealsenseDevicesPtr 
     if (!socket) return forward_error(std::move(socket));
     rig->pose_socket_ = std::move(*socket);
   }
-  rig->keeper_ = std::make_unique<LiveKeeper>(sink, rig->instruments(), request.keeper);
+  auto keeper = LiveKeeper::start(sink, rig->instruments(), request.keeper);
+  if (!keeper) return forward_error(std::move(keeper));
+  rig->keeper_ = std::move(*keeper);
   rig->devices_->on_removed([raw = rig.get()](const RealsenseDevices::WasRemoved& was_removed) {
     raw->note_removed(was_removed);
   });

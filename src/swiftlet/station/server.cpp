@@ -9,6 +9,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <thread>
 
+#include "swiftlet/base/start_thread.hpp"
 #include "swiftlet/station/http_session_private.hpp"
 #include "swiftlet/station/server_private.hpp"
 
@@ -81,10 +82,12 @@ class Server final : public Station {
     options_.listen.port = acceptor_.local_endpoint(error).port();
     accept();
     tick();
-    thread_ = std::thread([this] {
+    auto thread = start_thread("ground station", [this] {
       run_with_low_priority();
       io_.run();
     });
+    if (!thread) return forward_error(std::move(thread));
+    thread_ = std::move(*thread);
     return Done{};
   }
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "swiftlet/base/start_thread.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -57,8 +59,15 @@ Expected<std::unique_ptr<TileStore>> TileStore::open(const std::filesystem::path
   }
   auto reading = MapFile::open_to_read(path);
   if (!reading) return forward_error(std::move(reading));
-  return std::unique_ptr<TileStore>(
+  std::unique_ptr<TileStore> store(
       new TileStore(options, std::move(*writer), std::move(*reading), std::move(meta)));
+  auto thread = start_thread(path.string(), [&own = *store] { own.run(); });
+  if (!thread) {
+    store->is_closed_ = true;  // there is nothing to write
+    return forward_error(std::move(thread));
+  }
+  store->thread_ = std::move(*thread);
+  return store;
 }
 
 TileStore::TileStore(const TileStoreOptions& options, BatchWriter writer, MapFile reading,
@@ -71,8 +80,7 @@ TileStore::TileStore(const TileStoreOptions& options, BatchWriter writer, MapFil
       filling_(options.pending_blocks),
       writing_(options.pending_blocks),
       cache_(options.cache_blocks),
-      notes_(std::move(meta)),
-      thread_([this] { run(); }) {}
+      notes_(std::move(meta)) {}
 
 TileStore::~TileStore() { static_cast<void>(close()); }
 

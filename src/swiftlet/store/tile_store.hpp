@@ -67,7 +67,7 @@ class TileStore final : public BlockArchive {
   /// Makes the file `path` and starts the writer. `meta` describes the map: config, source, ...
   /// Until close() this process is its writer (MapFile::writer_of()).
   /// Errors: kUsage if the file exists and may not be overwritten or is being written,
-  /// kInvalidConfig, kIo.
+  /// kInvalidConfig, kIo, kOutOfMemory if the system starts no thread.
   [[nodiscard]] static Expected<std::unique_ptr<TileStore>> create(
       const std::filesystem::path& path, double voxel_m, const TileStoreOptions& options = {},
       MapMeta meta = {});
@@ -141,7 +141,7 @@ class TileStore final : public BlockArchive {
   bool is_closed_ = false;
   TileStoreStats stats_;
 
-  std::thread thread_;
+  std::thread thread_;  // started by open()
 };
 
 /// Saves one snapshot as a map file.
