@@ -26,7 +26,7 @@
 #endif
 
 #include "swiftlet/pipeline/mapper.hpp"
-#include "swiftlet/query/distance_field.hpp"
+#include "swiftlet/query/distance/distance_field.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace {

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "swiftlet/pipeline/mapper.hpp"
-#include "swiftlet/query/frontier_clusters.hpp"
-#include "swiftlet/query/sweep.hpp"
-#include "swiftlet/query/view_gain.hpp"
+#include "swiftlet/query/explore/frontier_clusters.hpp"
+#include "swiftlet/query/explore/view_gain.hpp"
+#include "swiftlet/query/sweep/sweep.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace {

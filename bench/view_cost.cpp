@@ -23,10 +23,10 @@
 #include <thread>
 #include <vector>
 
-#include "swiftlet/app/bench_report.hpp"
-#include "swiftlet/app/bench_workload.hpp"
-#include "swiftlet/app/flight_watch.hpp"
-#include "swiftlet/app/latency.hpp"
+#include "swiftlet/app/report/bench_report.hpp"
+#include "swiftlet/app/view/flight_watch.hpp"
+#include "swiftlet/eval/bench/bench_workload.hpp"
+#include "swiftlet/session/latency.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "swiftlet/pipeline/mapper.hpp"
-#include "swiftlet/source/rig.hpp"
+#include "swiftlet/source/rig/rig.hpp"
 
 using namespace std::chrono_literals;
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "swiftlet/map/rolling_map.hpp"
-#include "swiftlet/query/distance_field_thread.hpp"
+#include "swiftlet/query/distance/distance_field_thread.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "swiftlet/pipeline/mapper.hpp"
-#include "swiftlet/query/speed_limit.hpp"
-#include "swiftlet/query/sweep.hpp"
+#include "swiftlet/query/sweep/speed_limit.hpp"
+#include "swiftlet/query/sweep/sweep.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace {

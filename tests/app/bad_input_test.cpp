@@ -12,7 +12,7 @@
 
 #include "app/support/run_program.hpp"
 #include "support/recordings.hpp"
-#include "swiftlet/store/saved_map.hpp"
+#include "swiftlet/store/map_file/saved_map.hpp"
 
 namespace swiftlet::test {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "app/support/run_program.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/store/save_blocks.hpp"
-#include "swiftlet/store/saved_map.hpp"
-#include "swiftlet/store/sqlite.hpp"
+#include "swiftlet/store/map_file/save_blocks.hpp"
+#include "swiftlet/store/map_file/saved_map.hpp"
+#include "swiftlet/store/map_file/sqlite.hpp"
 
 namespace swiftlet::test {
 namespace {

@@ -10,13 +10,13 @@
 
 #include "app/support/run_program.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/app/doctor_checks.hpp"
-#include "swiftlet/source/rig_file.hpp"
+#include "swiftlet/doctor/doctor_checks.hpp"
+#include "swiftlet/source/rig/rig_file.hpp"
 
 namespace swiftlet::test {
 namespace {
 
-using namespace app;
+using namespace doctor;
 using nlohmann::json;
 using ::testing::AnyOf;
 using ::testing::Contains;

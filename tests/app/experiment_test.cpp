@@ -4,8 +4,6 @@
 // The experiments that take no flight, by the built program; the others are run by hand, as
 // docs/accuracy.md says, and their results stand in tests/end_to_end.
 
-#include "swiftlet/app/experiment.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +11,7 @@
 
 #include "app/support/run_program.hpp"
 #include "support/recordings.hpp"
+#include "swiftlet/app/report/experiment_report.hpp"
 
 namespace swiftlet::test {
 namespace {
@@ -67,7 +66,7 @@ TEST_F(Experiment, a_folder_that_cannot_be_made_is_told_before_the_work) {
 
 TEST(ExperimentFigure, is_drawn_as_svg_and_png_where_there_is_a_gnuplot) {
   const TempFolder folder;
-  app::Figure figure{"lines", "Title", "x", "y"};
+  eval::Figure figure{"lines", "Title", "x", "y"};
   figure.curves = {{"a", {{0.0, 1.0}, {1.0, 2.0}}, false}};
   const auto svg = app::draw_figure(figure, folder.path());
   ASSERT_TRUE(svg);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/app/file_kind.hpp"
+#include "swiftlet/file/file_kind.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include "support/temp_folder.hpp"
-#include "swiftlet/app/checked_files.hpp"
-#include "swiftlet/app/map_reader.hpp"
-#include "swiftlet/app/opened_map.hpp"
-#include "swiftlet/store/save_blocks.hpp"
+#include "swiftlet/app/report/checked_files.hpp"
+#include "swiftlet/store/map_file/save_blocks.hpp"
+#include "swiftlet/store/map_reader.hpp"
+#include "swiftlet/store/opened_map.hpp"
 
 namespace swiftlet::app {
 namespace {

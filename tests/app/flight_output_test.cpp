@@ -11,7 +11,10 @@
 #include <cstdlib>
 
 #include "app/support/program_fixture.hpp"
-#include "swiftlet/store/save_blocks.hpp"
+#include "swiftlet/store/map_file/save_blocks.hpp"
+#include "app/support/run_program.hpp"
+#include "support/recordings.hpp"
+#include "support/temp_folder.hpp"
 
 namespace swiftlet::test {
 namespace {

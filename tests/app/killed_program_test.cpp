@@ -21,7 +21,7 @@
 #include "support/recordings.hpp"
 #include "support/seeds.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/store/saved_map.hpp"
+#include "swiftlet/store/map_file/saved_map.hpp"
 
 namespace swiftlet::test {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "app/support/blocks_of.hpp"
 #include "app/support/program_fixture.hpp"
-#include "swiftlet/store/saved_map.hpp"
+#include "swiftlet/store/map_file/saved_map.hpp"
 
 namespace swiftlet::test {
 namespace {

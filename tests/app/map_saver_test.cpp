@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/app/map_saver.hpp"
+#include "swiftlet/app/view/map_saver.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 #include "support/seeds.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/store/saved_map.hpp"
+#include "swiftlet/store/map_file/saved_map.hpp"
 
 namespace swiftlet::app {
 namespace {

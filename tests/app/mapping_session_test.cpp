@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/app/mapping_session.hpp"
+#include "swiftlet/session/mapping_session.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,9 @@
 #include <filesystem>
 
 #include "support/temp_folder.hpp"
-#include "swiftlet/app/flight_file.hpp"
-#include "swiftlet/store/saved_map.hpp"
+#include "swiftlet/app/report/summary.hpp"
+#include "swiftlet/session/flight_file.hpp"
+#include "swiftlet/store/map_file/saved_map.hpp"
 
 namespace swiftlet::app {
 namespace {

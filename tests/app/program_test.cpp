@@ -10,6 +10,7 @@
 
 #include "app/support/program_fixture.hpp"
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/store/map_file/saved_map.hpp"
 
 namespace swiftlet::test {
 namespace {

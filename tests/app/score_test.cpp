@@ -10,7 +10,7 @@
 
 #include "app/support/run_program.hpp"
 #include "support/recordings.hpp"
-#include "swiftlet/app/score_report.hpp"
+#include "swiftlet/app/report/score_report.hpp"
 
 namespace swiftlet::test {
 namespace {
@@ -105,11 +105,11 @@ TEST_F(Score, a_map_that_does_not_exist_is_a_wrong_usage) {
 }
 
 TEST(ScoreText, tells_each_score_in_its_unit_and_the_worst_cells_first) {
-  app::ScoreReport report{"sim:a", 0.1, 10, 60.0, {"one", "two"}};
+  eval::ScoreReport report{"sim:a", 0.1, 10, 60.0, {"one", "two"}};
   using eval::Unit;
-  app::add_value(report, 0, "free", {"free precision", 0.5, Unit::kShare});
-  app::add_value(report, 1, "free", {"free precision", 0.25, Unit::kShare});
-  app::add_value(report, 1, "surface", {"surface offset, RMS", 0.0123, Unit::kMetres, false});
+  eval::add_value(report, 0, "free", {"free precision", 0.5, Unit::kShare});
+  eval::add_value(report, 1, "free", {"free precision", 0.25, Unit::kShare});
+  eval::add_value(report, 1, "surface", {"surface offset, RMS", 0.0123, Unit::kMetres, false});
   report.findings = {{{{0, 0, 0}, "wall", true}, {{1, 0, 0}, "wire", false}}, {}};
   const std::string text = app::score_text(report);
   EXPECT_THAT(text, HasSubstr("50.000 %       25.000 %"));

@@ -13,7 +13,7 @@
 #include "app/support/run_program.hpp"
 #include "support/seeds.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/store/save_blocks.hpp"
+#include "swiftlet/store/map_file/save_blocks.hpp"
 
 namespace swiftlet::app {
 namespace {

@@ -15,7 +15,7 @@
 #include "support/temp_folder.hpp"
 #include "swiftlet/pipeline/mapper.hpp"
 #include "swiftlet/source/sources.hpp"
-#include "swiftlet/store/tile_store.hpp"
+#include "swiftlet/store/stream/tile_store.hpp"
 
 namespace swiftlet {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/eval/distortion_fit.hpp"
+#include "swiftlet/eval/camera/distortion_fit.hpp"
 
 #include <gtest/gtest.h>
 

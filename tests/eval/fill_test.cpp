@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/eval/fill.hpp"
+#include "swiftlet/eval/camera/fill.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/eval/object_cells.hpp"
+#include "swiftlet/eval/truth/object_cells.hpp"
 
 #include <gtest/gtest.h>
 

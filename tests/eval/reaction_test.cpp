@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/eval/reaction.hpp"
+#include "swiftlet/eval/truth/reaction.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,8 +11,8 @@
 #include <optional>
 #include <set>
 
-#include "swiftlet/eval/leave_out.hpp"
-#include "swiftlet/eval/score.hpp"
+#include "swiftlet/eval/score/score.hpp"
+#include "swiftlet/eval/truth/leave_out.hpp"
 
 namespace swiftlet::eval {
 namespace {

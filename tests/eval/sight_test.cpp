@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/eval/sight.hpp"
+#include "swiftlet/eval/truth/sight.hpp"
 
 #include <gtest/gtest.h>
 
-#include "swiftlet/eval/movers.hpp"
+#include "swiftlet/eval/truth/movers.hpp"
 #include "swiftlet/sim/scene_file.hpp"
-#include "swiftlet/source/sim_flight.hpp"
+#include "swiftlet/source/sim/sim_flight.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace swiftlet::eval {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/eval/wall_noise.hpp"
+#include "swiftlet/eval/camera/wall_noise.hpp"
 
 #include <gtest/gtest.h>
 

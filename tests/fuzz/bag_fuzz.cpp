@@ -13,7 +13,7 @@
 #include <string>
 
 #include "swiftlet/bag/bag_reader.hpp"
-#include "swiftlet/source/bag_streams.hpp"
+#include "swiftlet/source/bag/bag_streams.hpp"
 
 namespace {
 

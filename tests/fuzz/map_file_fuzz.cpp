@@ -14,7 +14,7 @@
 #include <fstream>
 #include <string>
 
-#include "swiftlet/store/salvage.hpp"
+#include "swiftlet/store/map_file/salvage.hpp"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "swiftlet/store/octomap_blocks.hpp"
+#include "swiftlet/store/export/octomap_blocks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace swiftlet;

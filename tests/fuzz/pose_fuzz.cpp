@@ -9,7 +9,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "swiftlet/source/pose_line.hpp"
+#include "swiftlet/source/rig/pose_line.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace swiftlet;

@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <string_view>
 
-#include "swiftlet/station/client_message.hpp"
-#include "swiftlet/station/door.hpp"
-#include "swiftlet/station/http_answer.hpp"
-#include "swiftlet/station/listen_address.hpp"
-#include "swiftlet/station/server_private.hpp"
+#include "swiftlet/station/http/door.hpp"
+#include "swiftlet/station/http/http_answer.hpp"
+#include "swiftlet/station/http/listen_address.hpp"
+#include "swiftlet/station/http/server_private.hpp"
+#include "swiftlet/station/page/client_message.hpp"
 
 namespace {
 

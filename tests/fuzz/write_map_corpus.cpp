@@ -10,7 +10,7 @@
 #include <iterator>
 #include <string>
 
-#include "swiftlet/store/save_blocks.hpp"
+#include "swiftlet/store/map_file/save_blocks.hpp"
 
 namespace {
 

@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "swiftlet/app/config_file.hpp"
+#include "swiftlet/config/config_file.hpp"
 #include "swiftlet/sim/scene_file.hpp"
-#include "swiftlet/source/rig_file.hpp"
+#include "swiftlet/source/rig/rig_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace swiftlet;

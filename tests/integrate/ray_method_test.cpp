@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/ray_method.hpp"
+#include "swiftlet/integrate/rays/ray_method.hpp"
 
 #include <gtest/gtest.h>
 

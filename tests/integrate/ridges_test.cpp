@@ -5,7 +5,7 @@
 
 #include "support/every_instruction_set.hpp"
 #include "support/seeds.hpp"
-#include "swiftlet/integrate/ridge_kernels.hpp"
+#include "swiftlet/integrate/image/ridge_kernels.hpp"
 
 namespace swiftlet {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/ghost_decay.hpp"
+#include "swiftlet/integrate/upkeep/ghost_decay.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 
 #include "support/allocations.hpp"
 #include "support/hand_made_map.hpp"
-#include "swiftlet/query/frontier_map.hpp"
-#include "swiftlet/query/sweep.hpp"
-#include "swiftlet/query/view_gain.hpp"
+#include "swiftlet/query/explore/frontier_map.hpp"
+#include "swiftlet/query/explore/view_gain.hpp"
+#include "swiftlet/query/sweep/sweep.hpp"
 
 namespace swiftlet {
 namespace {

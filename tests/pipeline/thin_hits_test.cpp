@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/thin_hits.hpp"
+#include "swiftlet/integrate/upkeep/thin_hits.hpp"
 
 #include <gtest/gtest.h>
 

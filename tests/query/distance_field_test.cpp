@@ -3,7 +3,7 @@
 
 // A distance field is that of the map it follows, however that changes.
 
-#include "swiftlet/query/distance_field.hpp"
+#include "swiftlet/query/distance/distance_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/query/distance_field_thread.hpp"
+#include "swiftlet/query/distance/distance_field_thread.hpp"
 
 #include <gtest/gtest.h>
 

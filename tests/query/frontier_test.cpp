@@ -8,7 +8,7 @@
 
 #include "support/hand_made_map.hpp"
 #include "support/seeds.hpp"
-#include "swiftlet/query/frontier_clusters.hpp"
+#include "swiftlet/query/explore/frontier_clusters.hpp"
 #include "swiftlet/query/occupancy_query.hpp"
 
 namespace swiftlet {

@@ -11,7 +11,7 @@
 
 #include "support/seeds.hpp"
 #include "swiftlet/map/rolling_map.hpp"
-#include "swiftlet/query/distance_field.hpp"
+#include "swiftlet/query/distance/distance_field.hpp"
 
 namespace swiftlet::test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/query/room_middle.hpp"
+#include "swiftlet/query/explore/room_middle.hpp"
 
 #include <gtest/gtest.h>
 

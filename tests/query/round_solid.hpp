@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "support/seeds.hpp"
-#include "swiftlet/query/body_shape.hpp"
+#include "swiftlet/query/sweep/body_shape.hpp"
 
 namespace swiftlet::test {
 

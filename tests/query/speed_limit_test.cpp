@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/query/speed_limit.hpp"
+#include "swiftlet/query/sweep/speed_limit.hpp"
 
 #include <gtest/gtest.h>
 

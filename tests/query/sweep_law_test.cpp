@@ -15,7 +15,7 @@
 #include "query/round_solid.hpp"
 #include "support/hand_made_map.hpp"
 #include "support/seeds.hpp"
-#include "swiftlet/query/sweep.hpp"
+#include "swiftlet/query/sweep/sweep.hpp"
 
 namespace swiftlet {
 namespace {

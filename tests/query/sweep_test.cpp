@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/query/sweep.hpp"
+#include "swiftlet/query/sweep/sweep.hpp"
 
 #include <gtest/gtest.h>
 

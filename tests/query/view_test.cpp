@@ -8,9 +8,9 @@
 
 #include "support/hand_made_map.hpp"
 #include "support/seeds.hpp"
-#include "swiftlet/query/frontier_clusters.hpp"
-#include "swiftlet/query/view_gain.hpp"
-#include "swiftlet/query/view_pose.hpp"
+#include "swiftlet/query/explore/frontier_clusters.hpp"
+#include "swiftlet/query/explore/view_gain.hpp"
+#include "swiftlet/query/explore/view_pose.hpp"
 
 namespace swiftlet {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/joined_source.hpp"
+#include "swiftlet/source/rig/joined_source.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

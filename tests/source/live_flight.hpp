@@ -13,9 +13,9 @@
 #include "source/software_camera.hpp"
 #include "source/udp_sender.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/source/live_rig.hpp"
-#include "swiftlet/source/pose_line.hpp"
-#include "swiftlet/source/realsense_rig_private.hpp"
+#include "swiftlet/source/live/live_rig.hpp"
+#include "swiftlet/source/realsense/realsense_rig_private.hpp"
+#include "swiftlet/source/rig/pose_line.hpp"
 
 namespace swiftlet::test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/live_keeper.hpp"
+#include "swiftlet/source/live/live_keeper.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "support/no_threads.hpp"
-#include "swiftlet/source/live_rig.hpp"
+#include "swiftlet/source/live/live_rig.hpp"
 
 namespace swiftlet {
 namespace {

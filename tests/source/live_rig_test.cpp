@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/live_rig.hpp"
+#include "swiftlet/source/live/live_rig.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,13 +10,13 @@
 
 #include "support/temp_folder.hpp"
 #include "swiftlet/base/number_text.hpp"
+#include "swiftlet/file/output_file.hpp"
 #include "swiftlet/sim/ply_reader.hpp"
 #include "swiftlet/sim/scene_file.hpp"
-#include "swiftlet/source/openloris_calibration.hpp"
-#include "swiftlet/source/rig_file.hpp"
+#include "swiftlet/source/folders/openloris_calibration.hpp"
+#include "swiftlet/source/rig/rig_file.hpp"
 #include "swiftlet/source/text_file.hpp"
-#include "swiftlet/store/octomap_import.hpp"
-#include "swiftlet/store/output_file.hpp"
+#include "swiftlet/store/export/octomap_import.hpp"
 
 namespace swiftlet {
 namespace {

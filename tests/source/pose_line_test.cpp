@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/pose_line.hpp"
+#include "swiftlet/source/rig/pose_line.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -16,10 +16,10 @@
 
 #include "source/udp_sender.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/source/bag_streams.hpp"
-#include "swiftlet/source/live_rig.hpp"
-#include "swiftlet/source/pose_guard.hpp"
-#include "swiftlet/source/pose_socket.hpp"
+#include "swiftlet/source/bag/bag_streams.hpp"
+#include "swiftlet/source/live/live_rig.hpp"
+#include "swiftlet/source/live/pose_guard.hpp"
+#include "swiftlet/source/live/pose_socket.hpp"
 
 namespace swiftlet {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/real_time_source.hpp"
+#include "swiftlet/source/rig/real_time_source.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "swiftlet/source/rig.hpp"
+#include "swiftlet/source/rig/rig.hpp"
 
 namespace swiftlet {
 namespace {

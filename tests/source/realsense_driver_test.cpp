@@ -12,9 +12,9 @@
 #include <cmath>
 
 #include "source/software_camera.hpp"
-#include "swiftlet/source/live_rig.hpp"
-#include "swiftlet/source/realsense_driver_private.hpp"
-#include "swiftlet/source/rig_file.hpp"
+#include "swiftlet/source/live/live_rig.hpp"
+#include "swiftlet/source/realsense/realsense_driver_private.hpp"
+#include "swiftlet/source/rig/rig_file.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace swiftlet {

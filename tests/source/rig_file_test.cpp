@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/rig_file.hpp"
+#include "swiftlet/source/rig/rig_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

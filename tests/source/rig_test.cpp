@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/rig.hpp"
+#include "swiftlet/source/rig/rig.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "swiftlet/source/rig_file.hpp"
+#include "swiftlet/source/rig/rig_file.hpp"
 
 namespace swiftlet {
 namespace {

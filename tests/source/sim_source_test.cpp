@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/sim_source.hpp"
+#include "swiftlet/source/sim/sim_source.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "swiftlet/frame/frame.hpp"
-#include "swiftlet/source/mounts.hpp"
+#include "swiftlet/source/rig/mounts.hpp"
 
 // The scene of the driver's tests: Intel's bracket flies a straight line while it turns, before a
 // wall 2 m ahead, as in the wall recording of the bag tests.

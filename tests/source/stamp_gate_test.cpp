@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/stamp_gate.hpp"
+#include "swiftlet/source/rig/stamp_gate.hpp"
 
 #include <gtest/gtest.h>
 

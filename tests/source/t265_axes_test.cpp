@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/t265_axes.hpp"
+#include "swiftlet/source/rig/t265_axes.hpp"
 
 #include <gtest/gtest.h>
 

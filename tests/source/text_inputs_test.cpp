@@ -10,11 +10,11 @@
 #include "support/recordings.hpp"
 #include "swiftlet/sim/ply_reader.hpp"
 #include "swiftlet/sim/scene_file.hpp"
-#include "swiftlet/source/bag_scan.hpp"
-#include "swiftlet/source/matrix_file.hpp"
-#include "swiftlet/source/rig_file.hpp"
-#include "swiftlet/source/tum_lists.hpp"
-#include "swiftlet/store/octomap_import.hpp"
+#include "swiftlet/source/bag/bag_scan.hpp"
+#include "swiftlet/source/folders/matrix_file.hpp"
+#include "swiftlet/source/folders/tum_lists.hpp"
+#include "swiftlet/source/rig/rig_file.hpp"
+#include "swiftlet/store/export/octomap_import.hpp"
 
 namespace swiftlet {
 namespace {

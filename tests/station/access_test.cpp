@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/station/access.hpp"
+#include "swiftlet/station/http/access.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "swiftlet/station/http_answer.hpp"
-#include "swiftlet/station/listen_address.hpp"
+#include "swiftlet/station/http/http_answer.hpp"
+#include "swiftlet/station/http/listen_address.hpp"
+#include "swiftlet/station/state/token_bucket.hpp"
 #include "swiftlet/station/station.hpp"
-#include "swiftlet/station/token_bucket.hpp"
 
 namespace swiftlet::station {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/station/door.hpp"
+#include "swiftlet/station/http/door.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "swiftlet/station/http/waiting_room.hpp"
 #include "swiftlet/station/places.hpp"
-#include "swiftlet/station/waiting_room.hpp"
 
 namespace swiftlet::station {
 namespace {

@@ -9,7 +9,7 @@
 #include "station/station_world.hpp"
 
 #if SWIFTLET_HAS_VIEW
-#include "swiftlet/station/map_desk_private.hpp"
+#include "swiftlet/station/http/map_desk_private.hpp"
 
 namespace swiftlet::station {
 namespace {

@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-#include "swiftlet/station/wire.hpp"
+#include "swiftlet/station/page/wire.hpp"
 
 namespace swiftlet::station {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/station/reachable.hpp"
+#include "swiftlet/station/http/reachable.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

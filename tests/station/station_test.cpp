@@ -11,7 +11,7 @@
 #include "station/requests.hpp"
 #include "station/served_flight.hpp"
 #include "station/wire_reader.hpp"
-#include "swiftlet/station/client_message.hpp"
+#include "swiftlet/station/page/client_message.hpp"
 
 #if SWIFTLET_HAS_VIEW
 namespace swiftlet::station {

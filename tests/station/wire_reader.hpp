@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "swiftlet/station/wire.hpp"
+#include "swiftlet/station/page/wire.hpp"
 
 namespace swiftlet::station {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/station/wire.hpp"
+#include "swiftlet/station/page/wire.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "station/station_world.hpp"
 #include "station/wire_reader.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/station/client_message.hpp"
+#include "swiftlet/station/page/client_message.hpp"
 
 namespace swiftlet::station {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/store/batch_writer.hpp"
+#include "swiftlet/store/stream/batch_writer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/store/exporters.hpp"
+#include "swiftlet/store/export/exporters.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #endif
 
 #include "store/store_support.hpp"
-#include "swiftlet/store/octomap_import.hpp"
+#include "swiftlet/store/export/octomap_import.hpp"
 
 namespace swiftlet {
 namespace {

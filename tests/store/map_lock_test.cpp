@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/store/map_lock.hpp"
+#include "swiftlet/store/map_file/map_lock.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

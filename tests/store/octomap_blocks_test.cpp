@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/store/octomap_blocks.hpp"
+#include "swiftlet/store/export/octomap_blocks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "swiftlet/store/octomap_import.hpp"
+#include "swiftlet/store/export/octomap_import.hpp"
 
 namespace swiftlet::test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/store/output_file.hpp"
+#include "swiftlet/file/output_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <set>
 
 #include "support/temp_folder.hpp"
-#include "swiftlet/store/file_names.hpp"
-#include "swiftlet/store/map_file.hpp"
+#include "swiftlet/file/file_names.hpp"
+#include "swiftlet/store/map_file/map_file.hpp"
 
 namespace swiftlet {
 namespace {

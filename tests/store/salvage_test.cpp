@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/store/salvage.hpp"
+#include "swiftlet/store/map_file/salvage.hpp"
 
 #include <gtest/gtest.h>
 

@@ -16,8 +16,8 @@
 #include "support/seeds.hpp"
 #include "support/temp_folder.hpp"
 #include "swiftlet/map/rolling_map.hpp"
-#include "swiftlet/store/saved_map.hpp"
-#include "swiftlet/store/tile_store.hpp"
+#include "swiftlet/store/map_file/saved_map.hpp"
+#include "swiftlet/store/stream/tile_store.hpp"
 
 namespace swiftlet::test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/store/tile_store.hpp"
+#include "swiftlet/store/stream/tile_store.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/integrate/integrator.hpp"
-#include "swiftlet/integrate/ray_method.hpp"
+#include "swiftlet/integrate/rays/ray_method.hpp"
 
 namespace swiftlet::test {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "swiftlet/query/distance_field.hpp"
+#include "swiftlet/query/distance/distance_field.hpp"
 
 namespace swiftlet::test {
 

@@ -38,7 +38,7 @@ writeFileSync(
   out,
   `// Generated from web/ by web/scripts/embed.mjs; do not edit.
 
-#include "swiftlet/station/http_answer.hpp"
+#include "swiftlet/station/http/http_answer.hpp"
 
 namespace swiftlet::station {
 namespace {

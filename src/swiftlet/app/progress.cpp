@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "swiftlet/app/visible_text.hpp"
 
@@ -83,6 +84,20 @@ void Progress::finish() {
   const ProgressState state{done_, total_, elapsed_s()};
   if (is_terminal_) show(kClearLine);
   if (!is_terminal_) show(progress_text(state) + "\n");
+}
+
+ProgressFunction shown_progress() {
+  struct Line {
+    std::optional<Progress> work{};
+    ~Line() {
+      if (work) work->finish();
+    }
+  };
+  return [line = std::make_shared<Line>()](std::size_t done, std::optional<std::size_t> total) {
+    if (done == 0 && line->work) line->work->finish();
+    if (done == 0 || !line->work) line->work.emplace(total);
+    line->work->update(done);
+  };
 }
 
 }  // namespace swiftlet::app

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "swiftlet/base/progress.hpp"
+
 namespace swiftlet::app {
 
 /// How far the work has come.
@@ -46,5 +48,9 @@ class Progress {
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_ = start_;
 };
+
+/// What shows the progress of one piece of work after another, as Progress does; the last line ends
+/// with the last copy.
+[[nodiscard]] ProgressFunction shown_progress();
 
 }  // namespace swiftlet::app

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "swiftlet/store/salvage.hpp"
+#include "swiftlet/store/map_file/salvage.hpp"
 
 namespace swiftlet::app {
 

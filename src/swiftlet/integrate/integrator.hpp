@@ -13,7 +13,7 @@
 #include "swiftlet/base/registry.hpp"
 #include "swiftlet/condition/conditioned_depth.hpp"
 #include "swiftlet/frame/intrinsics.hpp"
-#include "swiftlet/integrate/depth_pyramid.hpp"
+#include "swiftlet/integrate/image/depth_pyramid.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 

@@ -9,9 +9,9 @@
 
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/frame/frame.hpp"
-#include "swiftlet/integrate/ghost_decay.hpp"
 #include "swiftlet/integrate/integrator.hpp"
-#include "swiftlet/integrate/thin_hits.hpp"
+#include "swiftlet/integrate/upkeep/ghost_decay.hpp"
+#include "swiftlet/integrate/upkeep/thin_hits.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/pipeline/frame_gate.hpp"
 #include "swiftlet/pipeline/lookahead.hpp"

@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "swiftlet/condition/conditioner.hpp"
-#include "swiftlet/integrate/ray_method.hpp"
+#include "swiftlet/integrate/rays/ray_method.hpp"
 
 namespace swiftlet {
 namespace {

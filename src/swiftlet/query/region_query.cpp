@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "swiftlet/query/cell_scan_private.hpp"
+#include "swiftlet/query/sweep/cell_scan_private.hpp"
 
 namespace swiftlet {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/map/map_snapshot.hpp"
-#include "swiftlet/query/body_shape.hpp"
 #include "swiftlet/query/occupancy_query.hpp"
+#include "swiftlet/query/sweep/body_shape.hpp"
 
 namespace swiftlet {
 

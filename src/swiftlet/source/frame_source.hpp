@@ -17,9 +17,9 @@
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/frame/trusted_poses.hpp"
 #include "swiftlet/source/intrinsics_note.hpp"
+#include "swiftlet/source/rig/stamp_judge.hpp"
 #include "swiftlet/source/rig_event.hpp"
 #include "swiftlet/source/rig_facts.hpp"
-#include "swiftlet/source/stamp_judge.hpp"
 
 namespace swiftlet {
 

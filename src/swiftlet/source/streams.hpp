@@ -35,4 +35,10 @@ class PoseStream {
 using DepthStreamPtr = std::unique_ptr<DepthStream>;
 using PoseStreamPtr = std::unique_ptr<PoseStream>;
 
+/// How the camera took an image, as far as the recording tells.
+struct CaptureSettings {
+  std::optional<double> exposure_us;
+  std::optional<double> laser_mw;
+};
+
 }  // namespace swiftlet

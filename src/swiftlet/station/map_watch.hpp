@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "swiftlet/station/live_feed.hpp"
-#include "swiftlet/station/map_mirror.hpp"
-#include "swiftlet/station/wire.hpp"
+#include "swiftlet/station/page/wire.hpp"
+#include "swiftlet/station/state/live_feed.hpp"
+#include "swiftlet/station/state/map_mirror.hpp"
 
 namespace swiftlet::station {
 

@@ -7,8 +7,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "swiftlet/station/reachable.hpp"
-#include "swiftlet/station/server_private.hpp"
+#include "swiftlet/station/http/reachable.hpp"
+#include "swiftlet/station/http/server_private.hpp"
 
 namespace swiftlet::station {
 namespace {

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "swiftlet/base/expected.hpp"
-#include "swiftlet/station/access.hpp"
-#include "swiftlet/station/door.hpp"
-#include "swiftlet/station/listen_address.hpp"
-#include "swiftlet/station/live_feed.hpp"
-#include "swiftlet/station/map_copy.hpp"
-#include "swiftlet/station/map_mirror.hpp"
+#include "swiftlet/station/http/access.hpp"
+#include "swiftlet/station/http/door.hpp"
+#include "swiftlet/station/http/listen_address.hpp"
+#include "swiftlet/station/state/live_feed.hpp"
+#include "swiftlet/station/state/map_copy.hpp"
+#include "swiftlet/station/state/map_mirror.hpp"
 
 namespace swiftlet::station {
 

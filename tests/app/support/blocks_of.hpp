@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <map>
 
-#include "swiftlet/store/saved_map.hpp"
+#include "swiftlet/store/map_file/saved_map.hpp"
 
 namespace swiftlet::test {
 

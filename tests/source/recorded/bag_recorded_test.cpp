@@ -13,8 +13,8 @@
 #include "support/map_bits.hpp"
 #include "support/recorded.hpp"
 #include "support/recordings.hpp"
-#include "swiftlet/source/bag_streams.hpp"
-#include "swiftlet/source/depth_png.hpp"
+#include "swiftlet/source/bag/bag_streams.hpp"
+#include "swiftlet/source/folders/depth_png.hpp"
 
 namespace swiftlet {
 namespace {

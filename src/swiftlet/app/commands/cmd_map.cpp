@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+
+#include "swiftlet/app/command.hpp"
+#include "swiftlet/app/commands/config_flags.hpp"
+#include "swiftlet/app/commands/rig_flags.hpp"
+#include "swiftlet/app/events.hpp"
+#include "swiftlet/app/input_files.hpp"
+#include "swiftlet/app/interrupt.hpp"
+#include "swiftlet/app/progress.hpp"
+#include "swiftlet/app/view/flight_watch.hpp"
+#include "swiftlet/session/flight.hpp"
+#include "swiftlet/session/flight_file.hpp"
+#include "swiftlet/session/flight_recovery.hpp"
+#include "swiftlet/session/mapping_session.hpp"
+#include "swiftlet/source/rig/real_time_source.hpp"
+#include "swiftlet/source/sources.hpp"
+
+namespace swiftlet::app {
+namespace {
+
+struct MapOptions {
+  std::string source;
+  std::string out = "map.swl";
+  bool overwrite = false;
+  ConfigInput config;
+  std::string rays;
+  std::string store = "keep";
+  std::uint64_t max_bytes = 0;
+  std::size_t frames = 0;  ///< 0 for all
+  RigFlags rig;
+  bool in_real_time = false;
+  bool as_json = false;
+  bool is_viewed = false;
+  bool stays = false;  ///< the view, after the flight
+  StationFlags station;
+};
+
+/// Told before the flight and not after it.
+Status check_name_is_free(const MapOptions& options) {
+  auto recovered = recover_cut_flights(options.out);
+  if (!recovered) return forward_error(std::move(recovered));
+  for (const std::string& note : *recovered)
+    std::fputs(("swiftlet: " + note + "\n").c_str(), stderr);
+  auto free = check_flight_file(options.out, options.overwrite, input_files(options.source));
+  return free ? check_room_for_flight(options.out) : free;
+}
+
+tl::expected<LoadedConfig, Faults> config_of(const MapOptions& options) {
+  ConfigInput input = options.config;
+  if (!options.rays.empty()) {
+    input.settings.emplace_back("integrate.integrator=rays");
+    input.settings.push_back("integrate.ray_method=" + options.rays);
+  }
+  return load_config(input);
+}
+
+SessionOptions session_options(const MapOptions& options, const SourceInfo& info,
+                               const MapperConfig& config) {
+  SessionOptions session;
+  session.path = options.out;
+  session.store.policy = options.store == "keep" ? StorePolicy::kKeep : StorePolicy::kDrop;
+  session.store.max_bytes = options.max_bytes;
+  session.store.overwrite = options.overwrite;
+  session.meta = flight_meta(info, config, SWIFTLET_VERSION);
+  return session;
+}
+
+FlightOptions flight_options(const MapOptions& options, Progress& progress,
+                             const InterruptGuard& interrupt) {
+  FlightOptions flight;
+  flight.frames = options.frames;
+  flight.stop = [&] { return interrupt.is_interrupted(); };
+  flight.progress = [&](std::size_t done, auto) { progress.update(done); };
+  flight.tell_events = [&](const auto& events) { tell_events(events, progress); };
+  flight.tell_loss = [&] {
+    progress.tell("the disk refuses blocks of the map; the flight goes on without them");
+  };
+  return flight;
+}
+
+Status fly_and_tell(FrameSource& source, MappingSession& session, const MapOptions& options,
+                    const InterruptGuard& interrupt, FlightWatch* watch) {
+  Progress progress(options.frames > 0 ? options.frames : source.info().frame_count);
+  FlightOptions flight = flight_options(options, progress, interrupt);
+  if (watch != nullptr)
+    flight.look = [&] { watch->note(source.tally(), session.summary().blocks_lost); };
+  Status outcome = fly(source, session, flight);
+  progress.finish();
+  return outcome;
+}
+
+/// Saves what there is, whether the flight ended well or not, and tells of it.
+Faults land(MappingSession& session, const MapperConfig& config, Status&& flight, bool as_json) {
+  Faults faults;
+  if (!flight) faults.push_back(std::move(flight).error());
+  if (!session.has_map()) {
+    if (faults.empty()) faults.push_back(nothing_mapped(session.summary(), config));
+    return faults;
+  }
+  if (auto saved = session.save(); !saved) faults.push_back(std::move(saved).error());
+  if (!session.aside().empty()) {
+    faults.push_back({ErrorCode::kIo, session.aside().string(),
+                      "here is the map that was to be replaced", "remove it if you need it not"});
+  }
+  fmt::print("{}", as_json ? summary_json(session.summary()) : summary_text(session.summary()));
+  return faults;
+}
+
+/// Null if nobody wants to look on.
+Expected<std::unique_ptr<FlightWatch>> start_watch(const MapOptions& options, const MapMeta& meta) {
+  if (!options.is_viewed) return nullptr;
+  auto watch = FlightWatch::start(options.station, options.source, meta);
+  if (watch) tell_address((*watch)->station());
+  return watch;
+}
+
+Faults map(const MapOptions& options) {
+  auto config = config_of(options);
+  if (!config) return std::move(config).error();
+  auto source = open_source(options.rig.added_to(options.source));
+  if (!source) return fault_of(std::move(source));
+  // Last, since it is the one that changes files.
+  if (auto free = check_name_is_free(options); !free) return fault_of(std::move(free));
+  if (options.in_real_time) source = play_in_real_time(std::move(*source));
+  const SourceInfo info = (*source)->info();
+  adopt_baseline(info.baseline_m, *config);
+
+  SessionOptions how = session_options(options, info, config->mapper);
+  auto watch = start_watch(options, how.meta);
+  if (!watch) return fault_of(std::move(watch));
+  how.observer = watch->get();
+  auto session = MappingSession::create(config->mapper, how);
+  if (!session) return fault_of(std::move(session));
+  (*session)->summary().source = info.uri;
+  (*session)->summary().intrinsics = info.intrinsics;
+  const InterruptGuard interrupt;  // until the map is saved
+  Status flight = fly_and_tell(**source, **session, options, interrupt, watch->get());
+  source->reset();  // nobody listens to the rig any more, however long the page stays
+  if (*watch) (*watch)->finish();
+  const bool is_over = flight.has_value() && !(*session)->summary().was_interrupted;
+  Faults faults = land(**session, config->mapper, std::move(flight), options.as_json);
+  if (*watch && options.stays && is_over && faults.empty()) {
+    std::fflush(stdout);
+    wait_for(interrupt);
+  }
+  return faults;
+}
+
+}  // namespace
+
+Action declare_map(CLI::App& parser) {
+  auto o = std::make_shared<MapOptions>();
+  // Without their descriptions, which would stand in the help twice.
+  CLI::Range positive(1, 1'000'000'000);
+  positive.description("");
+  CLI::AsSizeValue size(false);
+  size.description("");
+  parser.add_option("SOURCE", o->source, "where frames come from, as KIND:PLACE")
+      ->type_name("")
+      ->required();
+  parser.add_option("-o,--out", o->out, "map file to write; %t becomes the time of the start, UTC")
+      ->type_name("FILE")
+      ->capture_default_str();
+  parser.add_flag("--overwrite", o->overwrite,
+                  "replace the map; the old one is kept until the new one is saved");
+  declare_config_flags(parser, o->config);
+  parser
+      .add_option(
+          "--rays", o->rays,
+          "trace rays by this method (integrate.integrator: rays); see 'swiftlet list rays'")
+      ->type_name("NAME");
+  parser.add_option("--frames", o->frames, "stop after this many frames")
+      ->check(positive)
+      ->type_name("N");
+  parser.add_flag("--realtime", o->in_real_time,
+                  "play at recorded speed and lose frames when late, as a live rig does");
+  parser.add_flag("--view", o->is_viewed, "show the map in the browser while it grows")
+      ->group("Ground station");
+  parser.add_flag("--stay", o->stays, "go on showing it after the flight, until Ctrl-C")
+      ->group("Ground station");
+  declare_station_flags(parser, o->station);
+  declare_rig_flags(parser, o->rig);
+  parser.add_option("--store", o->store, "what leaves the window: keep it in the file or drop it")
+      ->check(CLI::IsMember({"keep", "drop"}))
+      ->capture_default_str();
+  parser
+      .add_option("--max-bytes", o->max_bytes, "cap of the map file, as in 500MB; oldest go first")
+      ->transform(size)
+      ->type_name("SIZE");
+  parser.add_flag("--json", o->as_json, "the summary as one JSON object, for machines");
+  parser.footer(
+      "Examples:\n"
+      "  swiftlet map 7scenes:redkitchen/seq-01 -o kitchen.swl\n"
+      "  swiftlet map tum:freiburg1_room --set map.voxel_m=0.05 --set depth.downsample=4\n"
+      "  swiftlet map 'tum:flight?depth_unit_m=0.001&intrinsics=615,615,320,240'\n"
+      "  swiftlet map sim:apartment --config flight.yaml --overwrite\n"
+      "  swiftlet map bag:d435.bag,t265.bag --rig my_rig.yaml\n"
+      "  swiftlet map sim:apartment --view --stay --realtime     then open the address it tells\n"
+      "'swiftlet list sources' tells every KIND, 'swiftlet list parameters' every KEY.\n"
+      "Ctrl-C stops the flight and saves what was mapped (exit code 0); a second one gives up.\n"
+      "A flight that was cut off leaves its map; the next start of the same command keeps it as\n"
+      "FILE.<time>.cut.swl. Poses that lose their place begin a new map, FILE.world2.swl.");
+  return [o] {
+    o->out = with_start_time(std::move(o->out), std::time(nullptr));
+    return map(*o);
+  };
+}
+
+}  // namespace swiftlet::app

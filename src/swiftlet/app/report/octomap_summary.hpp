@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "swiftlet/store/export/octomap_import.hpp"
+
+namespace swiftlet::app {
+
+// What `swiftlet info` tells of an OctoMap, as lines for people and as JSON.
+[[nodiscard]] std::string octomap_text(const std::string& path, std::uintmax_t bytes,
+                                       const OctomapSummary& octomap);
+[[nodiscard]] std::string octomap_json(const std::string& path, std::uintmax_t bytes,
+                                       const OctomapSummary& octomap);
+
+}  // namespace swiftlet::app

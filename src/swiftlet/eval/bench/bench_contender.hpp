@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+#include "swiftlet/eval/truth/cell_grid.hpp"
+#include "swiftlet/pipeline/mapper.hpp"
+
+namespace swiftlet::eval {
+
+/// A way from raw depth images and poses to a map, as `swiftlet bench` measures and `swiftlet
+/// score` judges it.
+class Contender {
+ public:
+  virtual ~Contender() = default;
+  /// Fuses one frame and tells the time it took: what is done to the depth image before the map is
+  /// asked counts as Stage::kCondition. nullopt if it refused the frame.
+  virtual std::optional<StageTimes> fuse(const Frame& frame) = 0;
+  /// Memory of the map alone, without scratch; 0 if there is none.
+  [[nodiscard]] virtual std::size_t map_bytes() const = 0;
+  /// Tells what the map claims of every cell of claims.box().
+  virtual void read_claims(Claims& claims) const = 0;
+};
+
+/// Ours: the whole mapper. `keeps_all`: what leaves the window is kept, too, and belongs to the
+/// claims. Errors: those of Mapper::create().
+[[nodiscard]] Expected<std::unique_ptr<Contender>> make_mapper_contender(const MapperConfig& config,
+                                                                         bool keeps_all = false);
+
+/// OctoMap's insertPointCloud(), the conversion to its point cloud included; null if Swiftlet was
+/// built without OctoMap. `is_discretised`: one ray a cell, OctoMap's own short cut.
+[[nodiscard]] std::unique_ptr<Contender> make_octomap_contender(const MapperConfig& config,
+                                                                bool is_discretised);
+
+/// No map: only the points [m, world] of a frame, all of it in Stage::kCondition.
+[[nodiscard]] std::unique_ptr<Contender> make_points_contender(const MapperConfig& config);
+
+}  // namespace swiftlet::eval

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/eval/bench/bench_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "swiftlet/eval/bench/bench_race.hpp"
+
+namespace swiftlet::eval {
+namespace {
+
+/// The runners of the tables, in the order of the race.
+enum class Run : std::size_t {
+  kPoints,
+  kTraversal10,
+  kLine10,
+  kLine8,
+  kLine1,
+  kProjective10,
+  kProjective8,
+  kProjective1
+};
+
+struct Setting {
+  const char* integrator;
+  const char* ray_method;
+  int downsample;
+};
+constexpr std::array kSettings{
+    Setting{"rays", "voxel_traversal", 10},       Setting{"rays", "line_drawing", 10},
+    Setting{"rays", "line_drawing", 8},           Setting{"rays", "line_drawing", 1},
+    Setting{"projective", "voxel_traversal", 10}, Setting{"projective", "voxel_traversal", 8},
+    Setting{"projective", "voxel_traversal", 1}};
+
+Expected<std::vector<Runner>> make_runners(const Workload& workload, MapperConfig config) {
+  config.integrate.fusion = kThesisFusion;
+  config.map.voxel_m = kThesisTablesVoxel_m;
+  config.depth.downsample = 1;
+  config.integrate.threads = 1;
+  std::vector<Runner> runners;
+  runners.push_back({.name = "points", .contender = make_points_contender(config)});
+  for (const Setting& s : kSettings) {
+    config.integrate.integrator = s.integrator;
+    config.integrate.ray_method = s.ray_method;
+    config.depth.downsample = s.downsample;
+    auto contender = make_mapper_contender(config);
+    if (!contender) return forward_error(std::move(contender));
+    const bool is_slow = s.downsample == 1 && std::string_view(s.integrator) == "rays";
+    runners.push_back({.name = s.integrator,
+                       .every = is_slow ? every_nth(10, workload) : 1,
+                       .contender = std::move(*contender)});
+  }
+  return runners;
+}
+
+}  // namespace
+
+Expected<ThesisTables> measure_thesis_tables(const Workload& workload, MapperConfig config,
+                                             const ProgressFunction& progress) {
+  auto runners = make_runners(workload, std::move(config));
+  if (!runners) return forward_error(std::move(runners));
+  race(workload, *runners, progress);
+  const auto latency = [&](Run run) -> const Latency& {
+    return (*runners)[static_cast<std::size_t>(run)].latency;
+  };
+  const auto stage = [&](Run run, Stage s) {
+    return 1e3 * seconds(latency(run).stage_percentile(s, 0.5));
+  };
+  const auto frame = [&](Run run) { return 1e3 * seconds(latency(run).frame_percentile(0.5)); };
+  ThesisTables tables{workload.name, {}, {}};
+  tables.functions = {
+      {"resolution downsampling, 10 x 10", 5.48, stage(Run::kLine10, Stage::kCondition)},
+      {"point extraction, full resolution", 19.16, stage(Run::kPoints, Stage::kCondition)},
+      {"fast voxel traversal + map update, 10 x 10", 10.49,
+       stage(Run::kTraversal10, Stage::kIntegrate)},
+      {"line drawing + map update, 10 x 10", 9.77, stage(Run::kLine10, Stage::kIntegrate)}};
+  tables.mapping = {
+      {"10 x 10 downsampling, no view", 28.475, frame(Run::kLine10), frame(Run::kProjective10)},
+      {"8 x 8 downsampling, no view", 36.517, frame(Run::kLine8), frame(Run::kProjective8)},
+      {"full resolution, no view", 665.320, frame(Run::kLine1), frame(Run::kProjective1)}};
+  return tables;
+}
+
+}  // namespace swiftlet::eval

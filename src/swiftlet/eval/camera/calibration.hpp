@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "swiftlet/eval/camera/distortion_fit.hpp"
+#include "swiftlet/eval/figure.hpp"
+
+namespace swiftlet::eval {
+
+/// One wall, as it is read and as it is after correction.
+struct CalibratedWall {
+  std::string source;
+  double distance_m = 0.0;
+  DistortionFit self;                  ///< fitted to this wall
+  std::optional<DepthDistortion> pre;  ///< fitted to another one, before
+
+  WallImages raw;
+  /// worst_error() of the images raw, after `self`, and after `pre`.
+  double raw_error = 0.0, self_error = 0.0;
+  std::optional<double> pre_error{};
+};
+
+/// Reads a wall, fits it and judges it. Errors: those of the source and of fit_distortion().
+[[nodiscard]] Expected<CalibratedWall> calibrate_wall(
+    const std::string& source, std::optional<double> distance_m, std::size_t frames,
+    const std::optional<DepthDistortion>& pre = std::nullopt);
+
+/// The thesis's figures A.2 and A.3 of a wall: histogram of depth and top view, raw,
+/// self-calibrated and pre-calibrated.
+[[nodiscard]] std::vector<Figure> calibration_figures(const CalibratedWall& wall,
+                                                      const std::string& name);
+
+}  // namespace swiftlet::eval

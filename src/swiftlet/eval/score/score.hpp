@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "swiftlet/base/registry.hpp"
+#include "swiftlet/eval/truth/reaction.hpp"
+#include "swiftlet/eval/truth/thin_cells.hpp"
+#include "swiftlet/eval/truth/truth.hpp"
+
+namespace swiftlet::eval {
+
+/// A map at the end of a flight, and what the flight was.
+struct Judged {
+  const Truth& truth;
+  const Claims& claims;  ///< of the map, over truth.cells().box()
+  /// Cells that were ever called occupied at a look, once a second of the flight.
+  const CellGrid<std::uint8_t>& ever_occupied;
+  /// The cells that another map knows, to compare over the same; null if there is no such map.
+  const Claims* reference = nullptr;
+  double flight_s = 0.0;
+  std::span<const ThinCell> thin{};      ///< cells of thin objects, with how near they were seen
+  const Reactions* reactions = nullptr;  ///< null where nothing moves
+};
+
+/// How a value is read.
+enum class Unit : std::uint8_t { kShare, kMetres, kDegrees, kCount, kPerMinute, kFrames };
+
+/// One number that says how right a map is.
+struct ScoreValue {
+  std::string name;
+  double value = 0.0;
+  Unit unit = Unit::kShare;
+  bool higher_is_better = true;
+  std::size_t of = 0;  ///< how many things it was counted over
+};
+
+/// A cell that a planner must hear of one by one.
+struct Finding {
+  VoxelIndex cell;
+  std::string what;       ///< what is there
+  bool is_warned = true;  ///< a neighbour is called occupied, so that a margin of one cell saves
+};
+
+struct ScoreResult {
+  std::vector<ScoreValue> values;  ///< empty if the flight has nothing to judge by
+  std::vector<Finding> findings;
+};
+
+using ComputeScore = ScoreResult (*)(const Judged& judged);
+
+/// All scores there are.
+[[nodiscard]] std::span<const Registered<ComputeScore>> scores();
+
+/// part / whole, and how many the whole is. 1 if there is none: nothing was done wrong.
+[[nodiscard]] ScoreValue share(std::string name, std::size_t part, std::size_t whole,
+                               bool higher_is_better = true);
+
+}  // namespace swiftlet::eval

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/eval/score/score_job.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace swiftlet::eval {
+namespace {
+
+Expected<std::unique_ptr<Contender>> make_entrant(const ScoreJob& job, const std::string& name) {
+  if (name != kOctomap) {
+    MapperConfig config = job.config;
+    (is_fusion(name) ? config.integrate.fusion : config.integrate.integrator) = name;
+    return make_mapper_contender(config, true);
+  }
+  constexpr bool kIsDiscretised = false;
+  auto made = make_octomap_contender(job.config, kIsDiscretised);
+  if (made) return made;
+  return fail(ErrorCode::kUnsupported, kOctomap, "this build of Swiftlet has no OctoMap",
+              "configure with -DSWIFTLET_WITH_OCTOMAP=ON, or leave it out of --maps");
+}
+
+}  // namespace
+
+Expected<std::vector<Entrant>> make_entrants(const ScoreJob& job) {
+  std::vector<Entrant> entrants;
+  for (const std::string& name : job.maps) {
+    if (std::ranges::find(entrants, name, &Entrant::name) != entrants.end()) continue;
+    auto map = make_entrant(job, name);
+    if (!map) return forward_error(std::move(map));
+    entrants.push_back({name, std::move(*map)});
+  }
+  return entrants;
+}
+
+}  // namespace swiftlet::eval

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "swiftlet/base/progress.hpp"
+#include "swiftlet/eval/bench/bench_contender.hpp"
+#include "swiftlet/eval/score/score_report.hpp"
+
+namespace swiftlet::eval {
+
+/// What is to be judged, and on what.
+struct ScoreJob {
+  std::string source;             ///< address
+  MapperConfig config;            ///< of our maps; cell size and range of all
+  std::vector<std::string> maps;  ///< names of fusions or integrators, or "octomap"
+  std::size_t frames = 600;       ///< evenly over the flight
+  ProgressFunction progress{};
+};
+
+/// A map that takes part. Names are unique.
+struct Entrant {
+  std::string name;
+  std::unique_ptr<Contender> map;
+};
+
+inline constexpr const char* kOctomap = "octomap";
+
+/// The maps of a job. Errors: kUsage for a name that is no integrator; kUnsupported for OctoMap if
+/// it was not built; those of Mapper::create().
+[[nodiscard]] Expected<std::vector<Entrant>> make_entrants(const ScoreJob& job);
+
+/// Flies a simulated flight and judges the maps by the truth.
+/// Errors: those of the source and of make_entrants(); kUsage if the truth needs more cells than
+/// memory should hold; kUnsupported without Embree.
+[[nodiscard]] Expected<ScoreReport> score_flight(const ScoreJob& job);
+
+/// Maps a recording but for every fifth frame and judges the maps by those.
+/// Errors: those of the source and of make_entrants(); kCorruptInput for fewer than five frames.
+[[nodiscard]] Expected<ScoreReport> score_recording(const ScoreJob& job);
+
+}  // namespace swiftlet::eval

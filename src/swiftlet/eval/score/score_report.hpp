@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "swiftlet/eval/score/score.hpp"
+
+namespace swiftlet::eval {
+
+/// One score of all maps.
+struct ScoreRow {
+  std::string score;  ///< name in scores(), or "leave_out"
+  ScoreValue meaning;
+  std::vector<std::optional<double>> values{};  ///< one a map; absent where it has none
+};
+
+/// How right maps are that were made from the same frames.
+struct ScoreReport {
+  std::string source;
+  double voxel_m = 0.0;
+  std::size_t frames = 0;
+  double flight_s = 0.0;
+  std::vector<std::string> maps;
+  std::vector<ScoreRow> rows{};
+  std::vector<std::vector<Finding>> findings{};  ///< of each map: solid cells called free
+  std::string intrinsics{};  ///< of recordings: where those of the camera came from
+};
+
+/// Books a value of the map of that number; rows appear in the order of their first value.
+void add_value(ScoreReport& report, std::size_t map, const std::string& score,
+               const ScoreValue& value);
+
+}  // namespace swiftlet::eval

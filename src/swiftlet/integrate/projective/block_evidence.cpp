@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/integrate/projective/block_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace swiftlet {
+namespace {
+
+/// A cell's image is about so many tiles wide.
+constexpr float kTilesAcross = 6.0F;
+/// Seen at a slant it is larger than a square of that width, up to 1.7 times.
+constexpr float kSamplesPerTile = 1.3F, kFewest = 4.0F;
+/// From so many cells on, all cells of a block look alike.
+constexpr float kFarCells = 24.0F;
+
+/// Whether the cells of a cube are all surely free: more free evidence changes none of them.
+bool is_surely_free(const VoxelBlock* block, int edge, int offset) {
+  if (block == nullptr) return false;
+  std::uint64_t any = 0;
+  for (int z = 0; z < edge; ++z) {
+    for (int y = 0; y < edge; ++y) {
+      const int first = offset + kBlockEdge * (y + kBlockEdge * z);
+      std::uint64_t row = 0;
+      std::memcpy(&row, block->cells.data() + first, static_cast<std::size_t>(edge));
+      any |= row;
+    }
+  }
+  static_assert(kFreeCell == 0);
+  return any == 0;
+}
+
+}  // namespace
+
+struct FrameEvidence::Work {
+  const VoxelBlock* known;
+  CellCube block;
+  BlockEvidence& evidence;
+  bool has_free = false;
+};
+
+FrameEvidence::FrameEvidence(const CubeView& view, const DepthPyramid& pyramid,
+                             const ReadingSummaries& summaries, const FrameInView& frame,
+                             std::uint64_t frame_number)
+    : view_(view),
+      tiles_(pyramid.tiles()),
+      summaries_(summaries),
+      frame_(frame),
+      frame_number_(frame_number) {}
+
+void FrameEvidence::judge_halves(const CubeInView& cube, int edge, Verdict verdict,
+                                 JudgedHalves& halves) const {
+  CubeBatch batch;
+  for (std::size_t i = 0; i < halves.cubes.size(); ++i) {
+    halves.cubes[i] = view_.child(cube, edge, static_cast<int>(i));
+    batch.add(halves.cubes[i].p_camera);
+  }
+  batch.half_camera = halves.cubes[0].half_camera;
+  halves.verdicts.fill(verdict);
+  if (verdict != Verdict::kFree) judge(batch, halves.verdicts);
+}
+
+CellCube FrameEvidence::cells_of(const CubeInView& cube, int edge, int offset) const {
+  const float to_first = 0.5F * static_cast<float>(1 - edge) * frame_.voxel_m;
+  CellCube cells{cube.p_world, cube.p_camera, edge, offset};
+  for (int i = 0; i < 3; ++i) {
+    cells.p_world[i] += to_first;
+    cells.p_camera[i] +=
+        to_first * (frame_.world_axis[0][i] + frame_.world_axis[1][i] + frame_.world_axis[2][i]);
+  }
+  return cells;
+}
+
+bool FrameEvidence::collect(const BlockIndex& index, Verdict verdict, const VoxelBlock* known,
+                            BlockEvidence& evidence) const {
+  if (verdict != Verdict::kMixed && is_surely_free(known, kBlockEdge, 0)) return false;
+  evidence.steps.fill(0);
+  evidence.passed.count = evidence.sampled.count = 0;
+  const CubeInView cube = view_.cube(first_voxel(index), kBlockEdge);
+  Work work{known, cells_of(cube, kBlockEdge, 0), evidence};
+  descend(cube, kBlockEdge, 0, verdict, work);
+  look(cube, work);
+  return work.has_free || std::ranges::any_of(evidence.steps, [](FixedSteps e) { return e != 0; });
+}
+
+/// Lets the listed cells of a cube look at their readings.
+void FrameEvidence::look(const CubeInView& cube, Work& work) const {
+  CellList &passed = work.evidence.passed, &sampled = work.evidence.sampled;
+  if (passed.count + sampled.count == 0) return;
+  // Tiles of a fraction of a cell's width, and as many samples as there are such tiles. What noise
+  // blurs needs to be told apart less finely.
+  const float z_m = std::max(cube.p_camera[2], frame_.voxel_m);
+  const float width_px = frame_.fx * frame_.voxel_m / z_m;
+  const float noise_cells = frame_.sigma_per_z2 * z_m * z_m / frame_.voxel_m;
+  const float tiles_across = std::max(1.0F, kTilesAcross / (1.0F + noise_cells));
+  const int shift = std::clamp(static_cast<int>(std::lround(std::log2(width_px / tiles_across))),
+                               ReadingSummaries::kFinestShift, ReadingSummaries::kCoarsestShift);
+  const float across = width_px / static_cast<float>(1 << shift);
+  const bool is_near = cube.z_near() < kNearCells * frame_.voxel_m;
+  const float count =
+      is_near ? float{FaceSamples::kMost}
+              : std::clamp(kSamplesPerTile * across * across, kFewest, float{FaceSamples::kMost});
+  CellLook look{.samples = {},
+                .tiles = summaries_.tiles(shift),
+                .is_inside_image = !is_near && view_.is_inside_image(cube)};
+  look.samples.spread(static_cast<int>(count), cube.p_world, frame_.voxel_m, frame_.world_axis,
+                      frame_number_);
+  passed.fill_last_group();
+  sampled.fill_last_group();
+  FixedSteps* steps = work.evidence.steps.data();
+  fill_passed(frame_, work.block, passed, look, steps);
+  fill_sampled(frame_, work.block, sampled, look, steps);
+  passed.count = sampled.count = 0;
+}
+
+void FrameEvidence::descend(const CubeInView& cube, int edge, int offset, Verdict verdict,
+                            Work& work) const {
+  if (verdict == Verdict::kNothing) return;
+  if (verdict != Verdict::kMixed && is_surely_free(work.known, edge, offset)) return;
+  if (verdict == Verdict::kFree && edge >= 4) {
+    fill_free(frame_, cells_of(cube, edge, offset), work.evidence.steps.data());
+    work.has_free = true;
+    return;
+  }
+  // What passes a cube passes its parts; single cells are not worth the question.
+  if (edge == 2 || (edge == 4 && verdict != Verdict::kMixed)) {
+    CellList& cells = verdict == Verdict::kMixed ? work.evidence.sampled : work.evidence.passed;
+    cells.add_cube(offset, edge);
+    return;
+  }
+  const int half = edge / 2;
+  JudgedHalves halves;
+  judge_halves(cube, half, verdict, halves);
+  for (int i = 0; i < 8; ++i) {
+    const int x = i & 1, y = (i >> 1) & 1, z = i >> 2;
+    const CubeInView& part = halves.cubes[static_cast<std::size_t>(i)];
+    descend(part, half, offset + half * (x + kBlockEdge * (y + kBlockEdge * z)),
+            halves.verdicts[static_cast<std::size_t>(i)], work);
+    // Near the camera, each part of a block needs samples of its own.
+    if (edge == kBlockEdge && cube.p_camera[2] < kFarCells * frame_.voxel_m) look(part, work);
+  }
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "swiftlet/integrate/image/reading_tiles.hpp"
+#include "swiftlet/integrate/projective/cell_kernels.hpp"
+#include "swiftlet/integrate/projective/cube_judge.hpp"
+#include "swiftlet/map/voxel_block.hpp"
+
+namespace swiftlet {
+
+/// The eight halves of a cube, as CubeView::child() counts them, and what a frame says of each.
+struct JudgedHalves {
+  std::array<CubeInView, 8> cubes;
+  Verdicts verdicts;
+};
+
+/// Where the evidence of one block is put together.
+struct BlockEvidence {
+  std::array<FixedSteps, kBlockVoxels> steps;
+  CellList passed, sampled;
+};
+
+/// What one frame says about blocks of the map, cube by cube: where the depth image says the same
+/// about all of a cube, its cells get it at once; elsewhere the cube is halved, down to single
+/// cells, which look at the readings of their image.
+class FrameEvidence {
+ public:
+  FrameEvidence(const CubeView& view, const DepthPyramid& pyramid,
+                const ReadingSummaries& summaries, const FrameInView& frame,
+                std::uint64_t frame_number);
+
+  void judge(const CubeBatch& cubes, Verdicts& verdicts) const {
+    judge_cubes(frame_, tiles_, cubes, verdicts);
+  }
+  /// The eight halves, `edge` cells wide, of a cube that was judged so. What passes a cube passes
+  /// its halves: those of a free one need no look.
+  void judge_halves(const CubeInView& cube, int edge, Verdict verdict, JudgedHalves& halves) const;
+
+  /// The evidence for a block that was judged so. Cells that `known` shows to be surely free may be
+  /// left out where they are free. False if there is none.
+  bool collect(const BlockIndex& index, Verdict verdict, const VoxelBlock* known,
+               BlockEvidence& evidence) const;
+
+ private:
+  struct Work;
+  void descend(const CubeInView& cube, int edge, int offset, Verdict verdict, Work& work) const;
+  void look(const CubeInView& cube, Work& work) const;
+  [[nodiscard]] CellCube cells_of(const CubeInView& cube, int edge, int offset) const;
+
+  const CubeView& view_;
+  PyramidTiles tiles_;
+  const ReadingSummaries& summaries_;
+  const FrameInView& frame_;
+  std::uint64_t frame_number_;
+};
+
+}  // namespace swiftlet

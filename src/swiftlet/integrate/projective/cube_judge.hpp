@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "swiftlet/integrate/image/depth_pyramid.hpp"
+#include "swiftlet/integrate/projective/cell_kernels.hpp"
+
+namespace swiftlet {
+
+/// What a frame can say about a cube of cells.
+enum class Verdict : std::uint8_t {
+  kNothing,  ///< out of view, without readings, or hidden behind them
+  kFree,     ///< every pixel of its image has a reading that passes it
+  kSeen,     ///< every reading of its image passes it; some pixels have none
+  kMixed,    ///< may hold a surface, or is too near to tell
+};
+
+/// Nearer than so many cells, the formula for the area of a cell's image is too rough.
+inline constexpr float kNearCells = 4.0F;
+
+/// Cubes of one size that are judged together.
+struct CubeBatch {
+  static constexpr std::size_t kMost = 16;
+
+  std::size_t count = 0;
+  Float3 half_camera{};                                ///< as in CubeInView
+  alignas(64) std::array<float, kMost> x{}, y{}, z{};  ///< centres [m, camera axes]
+
+  void add(const Float3& p_camera) {
+    x[count] = p_camera[0];
+    y[count] = p_camera[1];
+    z[count] = p_camera[2];
+    ++count;
+  }
+};
+using Verdicts = std::array<Verdict, CubeBatch::kMost>;
+
+/// Judges each cube by the readings of the rectangle that its bounding box covers in the image.
+/// The same verdicts on all instruction sets.
+void judge_cubes(const FrameInView& frame, const PyramidTiles& tiles, const CubeBatch& cubes,
+                 Verdicts& verdicts);
+
+}  // namespace swiftlet

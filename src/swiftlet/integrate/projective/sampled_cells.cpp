@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <algorithm>
+
+#include "swiftlet/integrate/projective/cell_kernels.hpp"
+
+// Highway compiles this file once for every instruction set: SSE2 to AVX-512, NEON.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "swiftlet/integrate/projective/sampled_cells.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "swiftlet/integrate/projective/chord_evidence_private.hpp"
+#include "swiftlet/integrate/projective/tile_evidence_private.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace swiftlet::HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
+namespace {
+
+/// Cells are asked in groups of so many, in as many vectors as that takes on this machine.
+constexpr std::size_t kGroup = CellList::kSpare;
+constexpr std::size_t kVectors = kGroup / hn::MaxLanes(Floats());
+/// Where the first few samples of a face say the same [log-odds], for each cell of a group, the
+/// others would, too.
+constexpr std::size_t kFew = 4;
+constexpr float kFlat = 0.015F;
+
+/// One face of each of several cells, and what the samples on it say so far.
+template <class What>
+struct Face {
+  FloatLanes middle[3];
+  typename What::OfFace cell;
+  FloatLanes sum, least, most, ends;
+
+  HWY_INLINE Face() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
+  HWY_INLINE Face(const FrameInView& frame, const CellLanes& cells, std::size_t axis)
+      : cell(frame, cells, axis) {
+    constexpr Floats f;
+    const FloatLanes to_face = hn::CopySign(hn::Set(f, 0.5F * frame.voxel_m), cells.world[axis]);
+    for (int i = 0; i < 3; ++i) {
+      middle[i] = hn::Sub(cells.camera[i], hn::Mul(to_face, hn::Set(f, frame.world_axis[axis][i])));
+    }
+    sum = ends = hn::Zero(f);
+    least = hn::Set(f, 1e9F);
+    most = hn::Neg(least);
+  }
+
+  template <bool IsInside>
+  HWY_INLINE void add(const FrameInView& frame, const CellLook& look, const FaceSample& place) {
+    const Sample s = sample_at<IsInside>(frame, look.tiles, middle, place.to);
+    const FloatLanes rays = hn::Mul(s.per_z, hn::Mul(s.per_z, s.per_z));
+    Said said = What::says(frame, look.tiles, s, cell, place);
+    if constexpr (!IsInside) {
+      said.log_odds = hn::IfThenElseZero(s.is_inside, said.log_odds);
+      said.ends = hn::IfThenElseZero(s.is_inside, said.ends);
+    }
+    sum = hn::Add(sum, hn::Mul(rays, said.log_odds));
+    if constexpr (What::kHolds) ends = hn::Add(ends, hn::Mul(rays, said.ends));
+    least = hn::Min(least, said.log_odds);
+    most = hn::Max(most, said.log_odds);
+  }
+
+  [[nodiscard]] HWY_INLINE bool is_flat() const {
+    constexpr Floats f;
+    return hn::AllTrue(f, hn::Lt(hn::Sub(most, least), hn::Set(f, kFlat * ReadingTiles::kAll)));
+  }
+};
+
+/// What the faces of a vector of cells say together.
+struct Sums {
+  FloatLanes log_odds, ends;
+
+  HWY_INLINE Sums() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
+};
+
+/// The sum over rays as an integral over the faces that the camera sees: each is crossed by
+/// |n q| / q_z^3 rays per area, and a ray counts DW, z^2 times a constant that the area cancels.
+/// Adds one face's part to the sums of a group of cells.
+template <class What, bool IsInside>
+HWY_INLINE void add_face(const FrameInView& frame, const CellLook& look, const CellLanes* cells,
+                         std::size_t axis, Sums* sums) {
+  constexpr Floats f;
+  Face<What> faces[kVectors];
+  for (std::size_t v = 0; v < kVectors; ++v) faces[v] = Face<What>(frame, cells[v], axis);
+  const std::span<const FaceSample> places = look.samples.on_face(axis);
+  std::size_t count = std::min(places.size(), kFew);
+  bool is_flat = true;
+  for (Face<What>& face : faces) {
+    for (std::size_t k = 0; k < count; ++k) face.template add<IsInside>(frame, look, places[k]);
+    is_flat = is_flat && face.is_flat();
+  }
+  if (!is_flat) {
+    for (Face<What>& face : faces) {
+      for (const FaceSample& place : places.subspan(count))
+        face.template add<IsInside>(frame, look, place);
+    }
+    count = places.size();
+  }
+  const FloatLanes per_count = hn::Set(f, 1.0F / (ReadingTiles::kAll * static_cast<float>(count)));
+  for (std::size_t v = 0; v < kVectors; ++v) {
+    const FloatLanes half = hn::Set(f, 0.5F * frame.voxel_m);
+    const FloatLanes distance = hn::Max(hn::Zero(f), hn::Sub(hn::Abs(cells[v].world[axis]), half));
+    const FloatLanes share = hn::Mul(distance, per_count);
+    sums[v].log_odds = hn::Add(sums[v].log_odds, hn::Mul(share, faces[v].sum));
+    if constexpr (What::kHolds) sums[v].ends = hn::Add(sums[v].ends, hn::Mul(share, faces[v].ends));
+  }
+}
+
+template <class What, bool IsInside>
+HWY_INLINE void fill(const FrameInView& frame, const CellCube& block, const CellList& list,
+                     const CellLook& look, FixedSteps* evidence) {
+  constexpr Floats f;
+  constexpr Ints i;
+  const std::size_t lanes = hn::Lanes(f);
+  for (std::size_t k = 0; k < list.count; k += kGroup) {
+    CellLanes cells[kVectors];
+    Sums sums[kVectors];
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      const std::size_t at = k + v * lanes;
+      cells[v] = cells_at(frame, block, hn::LoadU(f, &list.x[at]), hn::LoadU(f, &list.y[at]),
+                          hn::LoadU(f, &list.z[at]));
+      sums[v].log_odds = sums[v].ends = hn::Zero(f);
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      add_face<What, IsInside>(frame, look, cells, axis, sums);
+    HWY_ALIGN FixedSteps steps[kGroup];
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      const FloatLanes z = hn::Max(hn::Zero(f), cells[v].camera[2]);
+      IntLanes all = fixed_steps(frame, hn::Mul(sums[v].log_odds, hn::Mul(z, z)));
+      if constexpr (What::kHolds) {
+        const auto ends = hn::RebindMask(i, hn::Gt(sums[v].ends, hn::Zero(f)));
+        const auto is_held = hn::And(ends, hn::Lt(all, hn::Zero(i)));
+        all = hn::Or(all, hn::IfThenElseZero(is_held, hn::Set(i, kIsHeld)));
+      }
+      hn::Store(all, i, steps + v * lanes);
+    }
+    const std::size_t here = std::min(kGroup, list.count - k);
+    for (std::size_t lane = 0; lane < here; ++lane) evidence[list.offset[k + lane]] = steps[lane];
+  }
+}
+
+template <class What>
+HWY_INLINE void fill(const FrameInView& frame, const CellCube& block, const CellList& cells,
+                     const CellLook& look, FixedSteps* evidence) {
+  if (look.is_inside_image) {
+    fill<What, true>(frame, block, cells, look, evidence);
+  } else {
+    fill<What, false>(frame, block, cells, look, evidence);
+  }
+}
+
+void passed_cells(const FrameInView& frame, const CellCube& block, const CellList& cells,
+                  const CellLook& look, FixedSteps* evidence) {
+  if (frame.has_chords) {
+    fill<PassedChord>(frame, block, cells, look, evidence);
+  } else {
+    fill<PassedSlice>(frame, block, cells, look, evidence);
+  }
+}
+
+void sampled_cells(const FrameInView& frame, const CellCube& block, const CellList& cells,
+                   const CellLook& look, FixedSteps* evidence) {
+  if (frame.has_chords) {
+    fill<ChordEvidence>(frame, block, cells, look, evidence);
+  } else {
+    fill<SliceEvidence>(frame, block, cells, look, evidence);
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swiftlet {
+
+HWY_EXPORT(passed_cells);
+HWY_EXPORT(sampled_cells);
+
+void fill_passed(const FrameInView& frame, const CellCube& block, const CellList& cells,
+                 const CellLook& look, FixedSteps* evidence) {
+  HWY_DYNAMIC_DISPATCH(passed_cells)(frame, block, cells, look, evidence);
+}
+
+void fill_sampled(const FrameInView& frame, const CellCube& block, const CellList& cells,
+                  const CellLook& look, FixedSteps* evidence) {
+  HWY_DYNAMIC_DISPATCH(sampled_cells)(frame, block, cells, look, evidence);
+}
+
+}  // namespace swiftlet
+#endif

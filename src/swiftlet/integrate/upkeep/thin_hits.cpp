@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/integrate/upkeep/thin_hits.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace swiftlet {
+namespace {
+
+/// The level of the pyramid whose tiles are asked before their pixels.
+constexpr int kLevel = 1;
+constexpr int kTile = DepthPyramid::kTile << kLevel;
+
+}  // namespace
+
+ThinHits::ThinHits()
+    : image_(static_cast<int>(RidgeLimits::kMostReach_px) + kTile), slots_(kSlots) {
+  touched_.reserve(kMostCells);
+}
+
+void ThinHits::add(const VoxelIndex& cell, const RollingMap& map) {
+  std::size_t place = VoxelHash{}(cell) & (kSlots - 1);
+  while (slots_[place].frame == frame_ && slots_[place].cell != cell)
+    place = (place + 1) & (kSlots - 1);
+  Slot& slot = slots_[place];
+  if (slot.frame != frame_) {
+    if (touched_.size() == kMostCells) return;  // all there is looks thin: nothing is
+    slot = {cell, frame_, 0, map.log_odds(cell)};
+    touched_.push_back(static_cast<std::uint32_t>(place));
+  }
+  ++slot.hits;
+}
+
+bool ThinHits::may_have_ridge(const PyramidTiles& tiles, int tile_u, int tile_v) const {
+  const std::int32_t* words = tiles.words + tiles.first[kLevel];
+  const int width = tiles.width[kLevel];
+  const int height = (tiles.first[kLevel + 1] - tiles.first[kLevel]) / width;
+  const auto word = [&](int u, int v) { return static_cast<std::uint32_t>(words[v * width + u]); };
+  if (word(tile_u, tile_v) >> 16U == 0) return false;  // no reading
+  // The nearest reading looks farthest to the side, and needs the least behind it.
+  const auto nearest = static_cast<int>(word(tile_u, tile_v) & 0xfffeU);
+  const int reach = (limits_.reach_px(nearest) + kTile - 1) / kTile;
+  const float far = limits_.far_behind(static_cast<float>(nearest));
+  const auto is_behind = [&](int u, int v) { return static_cast<float>(word(u, v) >> 16U) > far; };
+  for (int u = std::max(0, tile_u - reach); u <= std::min(width - 1, tile_u + reach); ++u) {
+    if (is_behind(u, tile_v)) return true;
+  }
+  for (int v = std::max(0, tile_v - reach); v <= std::min(height - 1, tile_v + reach); ++v) {
+    if (is_behind(tile_u, v)) return true;
+  }
+  return false;
+}
+
+void ThinHits::collect(const DepthView& view, const RollingMap& map) {
+  ++frame_;
+  touched_.clear();
+  const ConditionedDepth& depth = view.depth;
+  const float unit_m = depth.unit_m, voxel_m = static_cast<float>(map.voxel_m());
+  const auto fx = static_cast<float>(view.intrinsics.fx()) / static_cast<float>(depth.ratio);
+  limits_ = {.half_cell_px = 0.5F * voxel_m * fx / unit_m,
+             .least_behind = kBehindCells * voxel_m / unit_m,
+             .behind_per_square = kBehindSigma * depth.noise_per_m * depth.noise_left * unit_m};
+  const PyramidTiles tiles = view.pyramid.tiles();
+  if (tiles.levels <= kLevel + 1) return;  // an image of a few pixels
+  image_.take(depth.raw);
+  for (int v = 0; v * kTile < depth.raw.height(); ++v) {
+    for (int u = 0; u * kTile < depth.raw.width(); ++u) {
+      if (may_have_ridge(tiles, u, v)) collect_tile(view, tiles, u, v, map);
+    }
+  }
+}
+
+void ThinHits::collect_tile(const DepthView& view, const PyramidTiles& tiles, int tile_u,
+                            int tile_v, const RollingMap& map) {
+  static_assert(RidgeTile::kEdge == kTile);
+  const int tile = tiles.first[kLevel] + tile_v * tiles.width[kLevel] + tile_u;
+  const int reach = limits_.reach_px(tiles.words[tile] & 0xfffe);
+  const int u = tile_u * kTile, v = tile_v * kTile;
+  const RidgeBits rows = find_ridges({&image_, u, v, reach}, limits_);
+  for (int k = 0; k < kTile; ++k) {
+    for (unsigned row = rows[static_cast<std::size_t>(k)]; row != 0; row &= row - 1)
+      add_reading(view, u + std::countr_zero(row), v + k, map);
+  }
+}
+
+void ThinHits::add_reading(const DepthView& view, int u, int v, const RollingMap& map) {
+  const PixelOrigin pixel = view.depth.origin_of(u, v);
+  const double z_m = double{view.depth.unit_m} * view.depth.raw.at(u, v);
+  const Eigen::Vector3d p_world =
+      view.T_world_camera * view.intrinsics.back_project(pixel.u, pixel.v, z_m);
+  const VoxelIndex cell = voxel_containing(p_world, map.voxel_m());
+  if (map.window().contains(block_of(cell))) add(cell, map);
+}
+
+std::size_t ThinHits::protect(RollingMap& map) {
+  std::size_t raised = 0;
+  for (const std::uint32_t place : touched_) {
+    const Slot& slot = slots_[place];
+    if (slot.hits < kLeastHits) continue;
+    const LogOdds least = add_steps(slot.before, kGain);
+    if (map.log_odds(slot.cell) >= least) continue;
+    map.writable(block_of(slot.cell)).cells[offset_in_block(slot.cell)] = least;
+    ++raised;
+  }
+  return raised;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "swiftlet/integrate/image/ridge_kernels.hpp"
+#include "swiftlet/integrate/integrator.hpp"
+
+namespace swiftlet {
+
+/// Keeps what is thinner than a cell from being erased by the rays that pass beside it.
+///
+/// A rod of 5 mm covers a twentieth of a cell of 10 cm, and the mean rule lets the other nineteen
+/// outvote it. In the image it is a ridge: readings with something clearly farther, or nothing,
+/// half a cell to both sides or above and below. A cell in which a frame shows kLeastHits such
+/// readings ends the frame no lower than kGain steps above where it began; one that shows none is
+/// left to the integrator, so what has gone is cleared as fast as ever. Real time: allocates
+/// nothing after construction. The same map bits on any number of threads.
+class ThinHits {
+ public:
+  static constexpr int kLeastHits = 3;
+  static constexpr std::int32_t kGain = 60;
+  static constexpr std::size_t kMostCells = 1U << 14;  ///< in one frame
+
+  ThinHits();
+
+  /// Before the integrator: finds the ridges of a frame.
+  void collect(const DepthView& view, const RollingMap& map);
+  /// After it: raises their cells. Returns how many.
+  std::size_t protect(RollingMap& map);
+
+  /// Scratch memory [bytes].
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return image_.memory_bytes() + slots_.capacity() * sizeof(Slot) +
+           touched_.capacity() * sizeof(touched_[0]);
+  }
+
+  /// A reading is clearly behind another by so many cells, and so many of its deviations.
+  static constexpr float kBehindCells = 1.5F, kBehindSigma = 6.0F;
+
+ private:
+  static constexpr std::size_t kSlots = 2 * kMostCells;  // a power of two
+  struct Slot {
+    VoxelIndex cell;
+    std::uint32_t frame = 0;  // the slot is empty in any other
+    int hits = 0;
+    LogOdds before = kUnknownCell;
+  };
+  /// A square of pixels; false: there is no ridge in it.
+  [[nodiscard]] bool may_have_ridge(const PyramidTiles& tiles, int tile_u, int tile_v) const;
+  void collect_tile(const DepthView& view, const PyramidTiles& tiles, int tile_u, int tile_v,
+                    const RollingMap& map);
+  void add_reading(const DepthView& view, int u, int v, const RollingMap& map);
+  void add(const VoxelIndex& cell, const RollingMap& map);
+  RidgeLimits limits_{};
+  BorderedImage image_;
+  std::vector<Slot> slots_;             // open addressing
+  std::vector<std::uint32_t> touched_;  // slots of this frame, in the order of the pixels
+  std::uint32_t frame_ = 0;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "swiftlet/query/explore/frontier_map.hpp"
+
+namespace swiftlet {
+
+/// A piece of the frontier that can be looked at as one.
+struct FrontierCluster {
+  std::size_t first_cell = 0;  ///< its cells in FrontierClusters::cells
+  std::size_t cell_count = 0;
+  Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero();  ///< [world]
+  /// Mean direction into the unknown, of length 1; 0 where the directions cancel out. [world]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+};
+
+struct FrontierClusters {
+  std::vector<VoxelIndex> cells;  ///< cluster by cluster
+  std::vector<FrontierCluster> clusters;
+
+  [[nodiscard]] std::span<const VoxelIndex> cells_of(const FrontierCluster& cluster) const {
+    return std::span(cells).subspan(cluster.first_cell, cluster.cell_count);
+  }
+};
+
+struct ClusterOptions {
+  double max_extent_m = 2.0;  ///< a cluster's box has no longer edge, so that one view may see it
+  std::size_t min_cells = 4;  ///< smaller ones are left out: holes in walls, noise
+};
+
+/// Splits the frontier into clusters whose cells touch each other by face, edge or corner. The same
+/// frontier gives the same clusters, in the same order.
+/// Cost: O(blocks of the window + cells of the frontier).
+[[nodiscard]] FrontierClusters cluster_frontier(const FrontierMap& frontier,
+                                                const ClusterOptions& options = {});
+
+}  // namespace swiftlet

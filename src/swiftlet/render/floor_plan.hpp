@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+
+#include "swiftlet/render/map_view.hpp"
+
+namespace swiftlet::render {
+
+/// A picture of the world from above, one square per column of cells: x forward is up, y left is
+/// left. Around it a margin with a tick every metre (longer every five; in large maps every 2, 5,
+/// 10 .. metres) and in the lower left corner a bar from one tick to the next; a cross marks where
+/// the flight began.
+class FloorPlan {
+ public:
+  FloorPlan(const LoadedMap& map, const VoxelBox& box, int cell_px);
+
+  /// Colours the square of column (x, y). REQUIRES: the column lies in the box.
+  void fill_column(std::int32_t x, std::int32_t y, Colour colour);
+
+  /// Draws ticks, scale bar and start over the cells and hands the picture out.
+  [[nodiscard]] Picture finish() &&;
+
+ private:
+  [[nodiscard]] int column_px(double y_m) const;  // pixel column of a world y
+  [[nodiscard]] int row_px(double x_m) const;     // pixel row of a world x
+  void draw_ticks();
+  void draw_scale_bar();
+  void draw_start();
+
+  VoxelBox box_;
+  double voxel_m_;
+  Eigen::Vector3d start_m_;
+  int cell_px_;
+  double tick_m_;  // between two ticks
+  Picture picture_;
+};
+
+/// What a column of cells holds, within a box.
+struct Column {
+  int occupied = 0;
+  int free = 0;
+  std::int32_t highest = 0;  ///< z of the highest occupied cell; 0 if there is none
+};
+
+/// The columns of a box, counted in one pass over the blocks: most of a large box may be empty.
+class Columns {
+ public:
+  Columns(const LoadedMap& map, const VoxelBox& box);
+  [[nodiscard]] Column at(std::int32_t x, std::int32_t y) const;
+
+ private:
+  static constexpr std::size_t kOfBlock = kBlockEdge * kBlockEdge;
+  std::unordered_map<BlockIndex, std::array<Column, kOfBlock>, BlockHash> by_block_;  // z = 0
+};
+
+/// The layer of cells at a coordinate, whatever the number is; 0 for NaN.
+[[nodiscard]] std::int32_t layer_at(double m, double voxel_m);
+
+/// z of the lowest occupied cell in a box: the foot of the scale of heights.
+[[nodiscard]] std::optional<std::int32_t> lowest_matter(const LoadedMap& map, const VoxelBox& box);
+
+/// The box without what lies above options.z_m.
+[[nodiscard]] VoxelBox cut_box(const VoxelBox& box, double voxel_m, const ViewOptions& options);
+
+/// Calls visit(x, y) for every column of a box.
+template <class Visit>
+void for_each_column(const VoxelBox& box, Visit&& visit) {
+  for (std::int32_t x = box.first.x; x <= box.last.x; ++x) {
+    for (std::int32_t y = box.first.y; y <= box.last.y; ++y) visit(x, y);
+  }
+}
+
+}  // namespace swiftlet::render

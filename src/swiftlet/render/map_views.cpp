@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "swiftlet/render/map_view.hpp"
+
+// A view is one file, which ends in draw_<name>(), and one line here.
+#define SWIFTLET_MAP_VIEWS(X)                                                               \
+  X(top, "from above: occupied columns dark, the more cells the darker; free columns pale") \
+  X(slice, "the layer at height --z: occupied blue, free yellow, unknown white")            \
+  X(height, "from above: the highest occupied cell of every column, coloured by height")    \
+  X(iso, "in three dimensions: occupied cells coloured by height, shaded, over pale free floor")
+
+namespace swiftlet::render {
+
+#define SWIFTLET_DECLARE(name, summary) \
+  Picture draw_##name(const LoadedMap& map, const VoxelBox& box, const ViewOptions& options);
+SWIFTLET_MAP_VIEWS(SWIFTLET_DECLARE)
+#undef SWIFTLET_DECLARE
+
+std::span<const Registered<DrawView>> map_views() {
+#define SWIFTLET_LINE(name, summary) Registered<DrawView>{#name, summary, draw_##name},
+  static constexpr std::array kViews{SWIFTLET_MAP_VIEWS(SWIFTLET_LINE)};
+#undef SWIFTLET_LINE
+  return kViews;
+}
+
+namespace {
+
+constexpr double kMaxMegapixels = 64.0;  // the isometric view takes 15 bytes for each
+constexpr double kFitting_px = 1600.0;
+constexpr double kMargins_px = 56.0;
+constexpr double kMostCells = 9e6;      // that are drawn one by one if nobody asks for more
+constexpr double kLongestSide = 16384;  // likewise [cells]
+constexpr int kMostJoined = 512;
+
+/// The sides of the largest picture of a box, in cells. Doubles: a box may be wider than an int.
+struct Sides {
+  double width, height;
+};
+Sides plan_sides(const VoxelBox& box) {
+  return {1.0 + box.last.y - box.first.y, 1.0 + box.last.x - box.first.x};
+}
+Sides iso_sides(const VoxelBox& box) {
+  const auto [y, x] = plan_sides(box);
+  return {(x + y) * 0.87, (x + y) * 0.5 + 1.0 + box.last.z - box.first.z};
+}
+
+/// No side of a picture is longer than this, in cells.
+double wide_cells(const VoxelBox& box) {
+  const auto [a, b] = plan_sides(box);
+  const auto [c, d] = iso_sides(box);
+  return std::max({a, b, c, d});
+}
+
+double megapixels(const VoxelBox& box, double cell_px, double margins_px) {
+  const auto of = [&](const Sides& s) {
+    return (s.width * cell_px + margins_px) * (s.height * cell_px + margins_px) * 1e-6;
+  };
+  return std::max(of(plan_sides(box)), of(iso_sides(box)));
+}
+
+int fitting_cell_px(const VoxelBox& box) {
+  return static_cast<int>(std::clamp(kFitting_px / wide_cells(box), 1.0, 32.0));
+}
+
+int joined_cells_of(const VoxelBox& box, const ViewOptions& options) {
+  if (options.cell_px != 0) return 1;
+  const double cells = megapixels(box, 1.0, 0.0) * 1e6;
+  const double joined =
+      std::ceil(std::max({1.0, std::sqrt(cells / kMostCells), wide_cells(box) / kLongestSide}));
+  return joined > kMostJoined ? 0 : static_cast<int>(joined);
+}
+
+Error no_picture(const VoxelBox& box, double voxel_m) {
+  return {ErrorCode::kUsage,
+          {},
+          fmt::format("the map is {:.3g} m wide in cells of {} m: no picture shows that",
+                      wide_cells(box) * voxel_m, voxel_m),
+          "'swiftlet info' tells its bounds; is there a stray block?"};
+}
+
+}  // namespace
+
+int joined_cells(const LoadedMap& map, const ViewOptions& options) {
+  const auto box = known_box(map);
+  return box ? joined_cells_of(*box, options) : 1;
+}
+
+Expected<Picture> draw_view(std::string_view view, const LoadedMap& map,
+                            const ViewOptions& options) {
+  auto known = find_registered(map_views(), view, "view");
+  if (!known) return forward_error(std::move(known));
+  const auto box = known_box(map);
+  if (!box) {
+    return fail(ErrorCode::kNotFound, {}, "the map holds no free or occupied cell to draw",
+                "look at it with 'swiftlet info'");
+  }
+  const int joined = joined_cells_of(*box, options);
+  if (joined == 0) return tl::make_unexpected(no_picture(*box, map.voxel_m));
+  if (joined > 1) {
+    const LoadedMap small = coarser(map, joined);
+    return draw_view(view, small, {options.z_m, fitting_cell_px(known_box(small).value_or(*box))});
+  }
+  ViewOptions fitted = options;
+  if (fitted.cell_px == 0) fitted.cell_px = fitting_cell_px(*box);
+  const double size = megapixels(*box, fitted.cell_px, kMargins_px);
+  if (size > kMaxMegapixels) {
+    return fail(ErrorCode::kUsage, "--scale",
+                fmt::format("the picture could have {:.0f} megapixels", size),
+                "choose fewer pixels per cell");
+  }
+  return known->make(map, *box, fitted);
+}
+
+}  // namespace swiftlet::render

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/render/floor_plan.hpp"
+
+namespace swiftlet::render {
+namespace {
+
+constexpr Colour kFree{255, 226, 89};
+constexpr Colour kOccupied{31, 73, 160};
+constexpr Colour kUnknown{255, 255, 255};
+
+}  // namespace
+
+/// The thesis's 2-D map (method 10): the camera-height layer where the flight began,
+/// unless told otherwise.
+Picture draw_slice(const LoadedMap& map, const VoxelBox& box, const ViewOptions& options) {
+  const std::int32_t z = layer_at(options.z_m.value_or(map.start_m.z()), map.voxel_m);
+  FloorPlan plan(map, box, options.cell_px);
+  for_each_column(box, [&](std::int32_t x, std::int32_t y) {
+    const Occupancy cell = map.state({x, y, z});
+    const Colour known = cell == Occupancy::kOccupied ? kOccupied : kFree;
+    plan.fill_column(x, y, cell == Occupancy::kUnknown ? kUnknown : known);
+  });
+  return std::move(plan).finish();
+}
+
+}  // namespace swiftlet::render

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "swiftlet/bag/ros_messages.hpp"
+#include "swiftlet/source/bag/bag_scan.hpp"
+#include "swiftlet/source/bag/bag_survey.hpp"
+#include "swiftlet/source/bag/depth_message.hpp"
+#include "swiftlet/source/bag/realsense_messages.hpp"
+
+// The depth images of plain ROS 1 bags, as of realsense-ros or OpenLORIS-Scene.
+
+namespace swiftlet {
+namespace {
+
+constexpr std::string_view kInfoType = "sensor_msgs/CameraInfo";
+
+/// What the CameraInfo messages of a camera have told, each time it was something new.
+class InfoHistory {
+ public:
+  void note(const ros::CameraInfo& info) {
+    if (!history_.empty() && history_.back().is_same_camera(info)) return;
+    if (history_.size() == kMost) history_.erase(history_.begin());
+    history_.push_back(info);
+    history_.back().header.frame_id = {};  // a view into the message
+    history_.back().distortion_model = {};
+  }
+  /// What held at a time: the newest of then; of the time before all, the first.
+  [[nodiscard]] const ros::CameraInfo& at(Stamp stamp) const {
+    const auto newest_by_then =
+        std::find_if(history_.rbegin(), history_.rend(),
+                     [&](const ros::CameraInfo& info) { return info.header.stamp <= stamp; });
+    return newest_by_then == history_.rend() ? history_.front() : *newest_by_then;
+  }
+  [[nodiscard]] Stamp newest() const { return history_.back().header.stamp; }
+
+ private:
+  static constexpr std::size_t kMost = 64;
+  std::vector<ros::CameraInfo> history_;
+};
+
+class RosDepth final : public DepthStream {
+ public:
+  RosDepth(BagReader reader, std::string topic, std::string info_topic,
+           const ros::CameraInfo& first, float unit_m)
+      : reader_(std::move(reader)),
+        topic_(std::move(topic)),
+        info_topic_(std::move(info_topic)),
+        unit_m_(unit_m) {
+    infos_.note(first);
+  }
+
+  /// An image is pending until the next one, because its CameraInfo may follow it.
+  Expected<std::optional<DepthFrame>> next() override {
+    while (true) {
+      auto message = read_after(reader_, fault_, pending_.has_value());
+      if (!message) return forward_error(std::move(message));
+      if (!*message) return finish();
+      if ((*message)->connection->topic == topic_) {
+        auto done = finish();
+        if (!done) return done;
+        auto begun = begin(**message);
+        if (!begun && !*done) return forward_error(std::move(begun));
+        if (!begun) fault_ = std::move(begun).error();  // told after the one before it
+        if (*done) return done;
+      } else if ((*message)->connection->topic == info_topic_) {
+        note_info(**message);
+        if (pending_ && infos_.newest() == pending_->stamp) return finish();
+      }
+    }
+  }
+
+ private:
+  struct Pending {
+    Stamp stamp;
+    DepthImage depth;
+    std::string place;
+  };
+
+  Status begin(const BagMessage& message) {
+    const auto image = ros::parse_image(message.data);
+    if (!image)
+      return fail(ErrorCode::kCorruptInput, place_of(reader_, message), "it is no image message");
+    auto depth = depth_from_message(*image, unit_m_);
+    if (!depth)
+      return fail(ErrorCode::kCorruptInput, place_of(reader_, message), std::move(depth.error()));
+    pending_.emplace(Pending{image->header.stamp, std::move(*depth), place_of(reader_, message)});
+    return Done{};
+  }
+
+  /// One that cannot be meant, as a driver sends that is not calibrated, changes nothing.
+  void note_info(const BagMessage& message) {
+    const auto info = ros::parse_camera_info(message.data);
+    if (info && info->K[0] > 0.0) infos_.note(*info);
+  }
+
+  Expected<std::optional<DepthFrame>> finish() {
+    if (!pending_) return std::nullopt;
+    Pending done = *std::exchange(pending_, std::nullopt);
+    auto intrinsics = intrinsics_of_images(infos_.at(done.stamp), done.depth.raw.width(),
+                                           done.depth.raw.height(), done.place);
+    if (!intrinsics) return forward_error(std::move(intrinsics));
+    return DepthFrame{done.stamp, std::move(done.depth), *intrinsics};
+  }
+
+  BagReader reader_;
+  std::string topic_, info_topic_;
+  InfoHistory infos_;
+  float unit_m_;
+  std::optional<Pending> pending_;
+  std::optional<Error> fault_;
+};
+
+struct FoundInfo {
+  std::string topic;
+  ros::CameraInfo info;
+  PinholeIntrinsics intrinsics;
+};
+
+Expected<FoundInfo> find_info(BagReader& reader, const std::string& topic,
+                              const DepthCandidate& images) {
+  Expected<FoundInfo> found = tl::make_unexpected(Error{});
+  auto is_found = scan_bag(reader, [&](const BagMessage& message) {
+    if (message.connection->type != kInfoType || !is_same_name(message.connection->topic, topic))
+      return false;
+    const auto info = ros::parse_camera_info(message.data);
+    const std::string place = place_of(reader, message);
+    if (!info) {
+      found = fail(ErrorCode::kCorruptInput, place, "it is no CameraInfo");
+      return true;
+    }
+    auto intrinsics = intrinsics_of_images(*info, images.width, images.height, place);
+    if (!intrinsics) {
+      found = forward_error(std::move(intrinsics));
+      return true;
+    }
+    found = FoundInfo{message.connection->topic, *info, *intrinsics};
+    found->info.header.frame_id = {};  // views into the message
+    found->info.distortion_model = {};
+    return true;
+  });
+  if (!is_found) return forward_error(std::move(is_found));
+  if (*is_found) return found;
+  return no_such_topic(reader, "it has no CameraInfo on " + topic,
+                       "choose a topic with --info-topic", topic);
+}
+
+std::string told(const DepthCandidate& chosen, const std::vector<DepthCandidate>& candidates,
+                 const std::string& info_topic) {
+  std::string others;
+  for (const DepthCandidate& candidate : candidates) {
+    if (candidate.topic != chosen.topic)
+      others += (others.empty() ? "; not from " : ", ") + candidate.text();
+  }
+  return fmt::format("depth from {}, intrinsics from {}{}", chosen.text(), info_topic, others);
+}
+
+}  // namespace
+
+Expected<BagDepth> open_ros_depth(const std::filesystem::path& path, const BagTopics& topics) {
+  auto first = open_bag(path);
+  if (!first) return forward_error(std::move(first));
+  auto candidates = survey_depth(*first, topics.depth);
+  if (!candidates) return forward_error(std::move(candidates));
+  auto images = choose_depth(*first, *candidates, topics.depth);
+  if (!images) return forward_error(std::move(images));
+
+  auto second = open_bag(path);
+  if (!second) return forward_error(std::move(second));
+  const std::string beside = images->topic.substr(0, images->topic.rfind('/')) + "/camera_info";
+  auto info = find_info(*second, topics.info.empty() ? beside : topics.info, *images);
+  if (!info) return forward_error(std::move(info));
+
+  auto third = open_bag(path);
+  if (!third) return forward_error(std::move(third));
+  return BagDepth{std::make_unique<RosDepth>(std::move(*third), images->topic, info->topic,
+                                             info->info, static_cast<float>(topics.depth_unit_m)),
+                  images->topic,
+                  images->frame_id,
+                  info->intrinsics,
+                  std::nullopt,
+                  told(*images, *candidates, info->topic)};
+}
+
+}  // namespace swiftlet

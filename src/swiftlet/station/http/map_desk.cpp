@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <algorithm>
+#include <boost/asio/post.hpp>
+#include <tuple>
+#include <utility>
+
+#include "swiftlet/station/http/map_desk_private.hpp"
+#include "swiftlet/station/station.hpp"
+
+namespace swiftlet::station {
+namespace {
+
+constexpr std::chrono::seconds kFresh{1};
+
+MapCopy copy_of(const MapWatch& watch) {
+  std::vector<BlockIndex> order;
+  order.reserve(watch.map().digest().blocks);
+  watch.map().for_each_block(
+      [&](const BlockIndex& index, const VoxelBlock&) { order.push_back(index); });
+  std::ranges::sort(order, {}, [](const BlockIndex& b) { return std::tuple(b.z, b.y, b.x); });
+  MapCopy copy{watch.facts().voxel_m, watch.map().frame_count(), {}};
+  copy.blocks.reserve(order.size());
+  for (const BlockIndex& index : order) copy.blocks.emplace_back(index, *watch.map().find(index));
+  return copy;
+}
+
+}  // namespace
+
+void MapDesk::ask(Time now, Ready ready) {
+  if (!saver_) {
+    ready(fail(ErrorCode::kUnsupported, "map file", "this station has none to give"));
+    return;
+  }
+  if (watch_.world() == 0 || watch_.map().digest().blocks == 0) {
+    ready(fail(ErrorCode::kNotFound, "map file", "nothing has been mapped yet"));
+    return;
+  }
+  if (last_ && now - last_at_ < kFresh) {
+    ready(*last_);
+    return;
+  }
+  if (waiting_.empty()) {
+    last_.reset();
+    // The next file is about as large as the one before; one may always be made.
+    const std::size_t held = held_bytes();
+    if (held > 0 && held + last_size_ > max_bytes_) {
+      ready(fail(ErrorCode::kOutOfMemory, "map file", "others are still taking older ones"));
+      return;
+    }
+  }
+  waiting_.push_back(std::move(ready));
+  if (waiting_.size() > 1) return;
+  last_at_ = now;
+  boost::asio::post(worker_, [this, copy = std::make_shared<const MapCopy>(copy_of(watch_))] {
+    run_with_low_priority();
+    auto file = std::make_shared<Expected<std::vector<std::uint8_t>>>(saver_(*copy));
+    boost::asio::post(io_, [this, file] { made(std::move(*file)); });
+  });
+}
+
+void MapDesk::made(Expected<std::vector<std::uint8_t>>&& file) {
+  last_ = std::move(file).map([](std::vector<std::uint8_t>&& bytes) -> SharedBytes {
+    return std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
+  });
+  if (*last_) {
+    std::erase_if(files_, [](const auto& old) { return old.expired(); });
+    files_.push_back(**last_);
+    last_size_ = (**last_)->size();
+  }
+  for (const Ready& ready : std::exchange(waiting_, {})) ready(*last_);
+}
+
+std::size_t MapDesk::held_bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& file : files_) {
+    if (const auto held = file.lock()) bytes += held->size();
+  }
+  return bytes;
+}
+
+void MapDesk::tidy(Time now) {
+  if (waiting_.empty() && now - last_at_ >= kFresh) last_.reset();
+}
+
+}  // namespace swiftlet::station

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "swiftlet/station/state/token_bucket.hpp"
+#include "swiftlet/station/viewer.hpp"
+
+namespace swiftlet::station {
+
+using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
+
+/// One WebSocket: carries what its viewer wants sent, one message at a time, and hands on what the
+/// client says. A client that does not keep to the rules, or takes nothing for long, is closed.
+class SocketSession : public std::enable_shared_from_this<SocketSession> {
+ public:
+  struct Limits {
+    std::size_t max_message = 0;   ///< from the client [bytes]
+    double messages_per_s = 20.0;  ///< from the client
+    double controls_per_s = 2.0;  ///< pings and pongs from the client; browsers send a few a minute
+    std::chrono::seconds stall{30};  ///< a message that has not left by then
+  };
+
+  /// Holds `place` for as long as it lives.
+  SocketSession(boost::beast::tcp_stream&& stream, std::unique_ptr<Viewer> viewer,
+                const Limits& limits, std::shared_ptr<void> place)
+      : socket_(std::move(stream)),
+        viewer_(std::move(viewer)),
+        limits_(limits),
+        place_(std::move(place)) {}
+
+  /// Answers the handshake, choosing this subprotocol; `opened` is called when the client is in.
+  void accept(const HttpRequest& request, const std::string& subprotocol,
+              std::function<void(std::shared_ptr<SocketSession>)> opened);
+  /// Sends what there is to send, unless a message is still on its way.
+  void pump();
+  /// Once a tick: closes a client that takes nothing.
+  void check(Viewer::Time now);
+  [[nodiscard]] bool is_open() const { return is_open_; }
+  [[nodiscard]] Viewer& viewer() { return *viewer_; }
+
+ private:
+  void read();
+  void received(std::size_t size);
+  void count_control_frame();
+  void close(boost::beast::websocket::close_code code, const std::string& reason);
+  void drop();
+
+  boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+  boost::beast::flat_buffer inbox_;
+  std::unique_ptr<Viewer> viewer_;
+  Limits limits_;
+  std::shared_ptr<void> place_;
+  TokenBucket allowance_;
+  TokenBucket control_allowance_;
+  Outgoing going_;  // while it is being written
+  Viewer::Time since_{};
+  bool is_writing_ = false;
+  bool is_open_ = false;
+};
+
+}  // namespace swiftlet::station

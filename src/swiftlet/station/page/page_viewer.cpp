@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <algorithm>
+#include <deque>
+#include <utility>
+
+#include "swiftlet/station/page/client_message.hpp"
+#include "swiftlet/station/state/token_bucket.hpp"
+#include "swiftlet/station/viewer.hpp"
+
+namespace swiftlet::station {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kFramesKept = 512;  // for a slow client; older ones are left out
+constexpr std::size_t kFramesPerMessage = 64;
+constexpr auto kStatusEvery = 200ms;
+constexpr std::uint32_t kLeastRate = 2000;  // [bytes/s]: less than that shows nothing
+
+class PageViewer final : public Viewer {
+ public:
+  explicit PageViewer(const MapWatch& watch) : watch_(watch) { queue_.start_again(watch.map()); }
+
+  void saw(const MapWatch::Look& look) override {
+    if (look.is_new_world) {
+      needs_hello_ = true;
+      frames_.clear();
+      queue_.start_again(watch_.map());
+    } else {
+      queue_.mark(look.changed, watch_.map());
+    }
+    is_sealed_ = is_sealed_ && look.changed.empty() && !look.is_new_world;
+    for (const FrameReport& frame : look.frames) frames_.push_back(frame);
+    while (frames_.size() > kFramesKept) frames_.pop_front();
+  }
+
+  void count(std::uint32_t clients) override { clients_ = clients; }
+
+  std::optional<Outgoing> next(Time now) override {
+    if (needs_hello_ && watch_.world() > 0) {
+      needs_hello_ = false;
+      const std::string text = hello_text(watch_.facts(), watch_.world());
+      return Outgoing{true, Bytes(text.begin(), text.end())};
+    }
+    if (watch_.world() == 0 || pace_ == Pace::kHold || !bucket_.is_open(now)) return std::nullopt;
+    Bytes message = next_message(now);
+    if (message.empty()) return std::nullopt;
+    bucket_.spend(static_cast<double>(message.size()));
+    return Outgoing{false, std::move(message)};
+  }
+
+  Status received(bool is_text, std::span<const std::uint8_t> bytes, Time now) override {
+    if (is_text) return fail(ErrorCode::kCorruptInput, "client message", "a text");
+    auto message = parse_client_message(bytes);
+    if (!message) return forward_error(std::move(message));
+    if (const auto* resend = std::get_if<Resend>(&*message)) {
+      queue_.resend(resend->first, resend->last, watch_.map());
+      is_sealed_ = false;
+    } else if (std::holds_alternative<SendAll>(*message)) {
+      queue_.start_again(watch_.map());
+      is_sealed_ = false;
+    } else if (const auto* pace = std::get_if<SetPace>(&*message)) {
+      pace_ = pace->pace;
+      is_sealed_ = is_sealed_ && pace_ != Pace::kStep;  // a step ends with a seal
+    } else if (const auto* rate = std::get_if<SetRate>(&*message)) {
+      limit(rate->bytes_per_s, now);
+    }
+    return Done{};
+  }
+
+ private:
+  void limit(std::uint32_t bytes_per_s, Time now) {
+    rate_ = bytes_per_s == 0 ? 0 : std::max(bytes_per_s, kLeastRate);
+    // A tenth of a second at once: what waits in the socket is old before it arrives.
+    bucket_ = rate_ == 0 ? TokenBucket() : TokenBucket(rate_, rate_ * 0.1, now);
+  }
+
+  /// Status, frames and blocks in turn, so that none starves another on a slow link.
+  Bytes next_message(Time now) {
+    if (now - last_status_ >= kStatusEvery) {
+      last_status_ = now;
+      return status_message(header(), status());
+    }
+    const bool is_frames_turn = std::exchange(was_blocks_turn_, !was_blocks_turn_);
+    if (!frames_.empty() && (is_frames_turn || queue_.is_up_to_date())) return next_frames();
+    if (!queue_.is_up_to_date()) return next_blocks();
+    if (!frames_.empty()) return next_frames();
+    if (is_sealed_) return {};
+    is_sealed_ = true;
+    if (pace_ == Pace::kStep) pace_ = Pace::kHold;
+    return seal_message(header(), watch_.map().frame_count(), watch_.map().digest());
+  }
+
+  Bytes next_frames() {
+    const auto count = static_cast<std::ptrdiff_t>(std::min(frames_.size(), kFramesPerMessage));
+    const std::vector<FrameReport> some(frames_.begin(), frames_.begin() + count);
+    frames_.erase(frames_.begin(), frames_.begin() + count);
+    return frames_message(header(), some);
+  }
+
+  Bytes next_blocks() {
+    ClientQueue::Batch batch = queue_.next(watch_.centre());
+    const MessageHeader head = header();
+    Bytes message = packer_.blocks_message(head, batch, watch_.map());
+    queue_.sent(head.sequence, std::move(batch));
+    return message;
+  }
+
+  MessageHeader header() { return {sequence_++, watch_.world()}; }
+
+  StatusReport status() const {
+    StatusReport status = watch_.status();
+    status.pending = static_cast<std::uint32_t>(queue_.pending());
+    status.clients = clients_;
+    status.rate_limit = rate_;
+    return status;
+  }
+
+  const MapWatch& watch_;
+  ClientQueue queue_;
+  BlockPacker packer_;
+  TokenBucket bucket_;
+  std::deque<FrameReport> frames_;
+  std::uint32_t sequence_ = 0;
+  std::uint32_t clients_ = 0;
+  std::uint32_t rate_ = 0;
+  Time last_status_{};
+  Pace pace_ = Pace::kFlow;
+  bool needs_hello_ = true;
+  bool is_sealed_ = false;
+  bool was_blocks_turn_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Viewer> make_page_viewer(const MapWatch& watch) {
+  return std::make_unique<PageViewer>(watch);
+}
+
+}  // namespace swiftlet::station

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/store/export/octomap_blocks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace swiftlet {
+namespace {
+
+LogOdds cell_of(float log_odds, bool is_occupied, const OccupancyThresholds& thresholds) {
+  const float steps = std::round(log_odds / OctomapBlocks::kLogoddsPerStep);
+  const float kept = std::isfinite(steps) ? std::clamp(steps, -128.0F, 128.0F) : 0.0F;
+  const int cell = kUnknownCell + static_cast<int>(kept);
+  return static_cast<LogOdds>(is_occupied
+                                  ? std::clamp(cell, thresholds.occupied_from, int{kOccupiedCell})
+                                  : std::clamp(cell, int{kFreeCell}, thresholds.free_below - 1));
+}
+
+/// Lays out leaves as long as there is room.
+class BlockFiller {
+ public:
+  BlockFiller(OctomapBlocks& out, const OccupancyThresholds& thresholds)
+      : out_(out), thresholds_(thresholds) {}
+
+  void add(const OctomapLeaf& leaf) {
+    // The log-odds of a .bt's leaf are 0.
+    const float of_state =
+        leaf.is_occupied ? OctomapBlocks::kOccupied_logodds : OctomapBlocks::kFree_logodds;
+    const LogOdds cell =
+        cell_of(leaf.log_odds == 0.0F ? of_state : leaf.log_odds, leaf.is_occupied, thresholds_);
+    leaf.edge < kBlockEdge ? fill_cells(leaf, cell) : fill_blocks(leaf, cell);
+  }
+  [[nodiscard]] bool is_full() const { return is_full_; }
+
+ private:
+  VoxelBlock* block(const BlockIndex& index) {
+    const auto found = out_.blocks.find(index);
+    if (found != out_.blocks.end()) return &found->second;
+    is_full_ = is_full_ || out_.blocks.size() >= OctomapBlocks::kMostBlocks;
+    if (is_full_) return nullptr;
+    VoxelBlock& made = out_.blocks[index];
+    made.clear();
+    return &made;
+  }
+
+  /// A leaf that is smaller than a block lies within one: both are cut at multiples of their edge.
+  void fill_cells(const OctomapLeaf& leaf, LogOdds cell) {
+    VoxelBlock* const target = block(block_of(leaf.first));
+    if (target == nullptr) return;
+    const VoxelIndex& f = leaf.first;
+    for (std::int32_t z = f.z; z < f.z + leaf.edge; ++z) {
+      for (std::int32_t y = f.y; y < f.y + leaf.edge; ++y) {
+        for (std::int32_t x = f.x; x < f.x + leaf.edge; ++x)
+          target->cells[offset_in_block({x, y, z})] = cell;
+      }
+    }
+  }
+
+  void fill_blocks(const OctomapLeaf& leaf, LogOdds cell) {
+    const std::int32_t edge = leaf.edge / kBlockEdge;
+    const auto blocks = static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge) *
+                        static_cast<std::uint64_t>(edge);
+    is_full_ = is_full_ || blocks > OctomapBlocks::kMostBlocks;
+    const BlockIndex first = block_of(leaf.first);
+    for (std::int32_t z = 0; z < edge && !is_full_; ++z) {
+      for (std::int32_t y = 0; y < edge; ++y) {
+        for (std::int32_t x = 0; x < edge; ++x) {
+          VoxelBlock* const target = block({first.x + x, first.y + y, first.z + z});
+          if (target != nullptr) target->cells.fill(cell);
+        }
+      }
+    }
+  }
+
+  OctomapBlocks& out_;
+  const OccupancyThresholds& thresholds_;
+  bool is_full_ = false;
+};
+
+}  // namespace
+
+Expected<OctomapBlocks> read_octomap_blocks(const std::filesystem::path& path,
+                                            const OccupancyThresholds& thresholds) {
+  OctomapBlocks out;
+  BlockFiller filler(out, thresholds);
+  auto summary = read_octomap(path, [&](const OctomapLeaf& leaf) { filler.add(leaf); });
+  if (!summary) return forward_error(std::move(summary));
+  if (filler.is_full()) {
+    return fail(ErrorCode::kUnsupported, path.string(),
+                fmt::format("its leaves stand for {:.3g} cells, too many to lay out one by one",
+                            static_cast<double>(summary->free_cells + summary->occupied_cells)),
+                "'swiftlet info' and 'swiftlet compare' read it leaf by leaf");
+  }
+  out.summary = std::move(*summary);
+  return out;
+}
+
+}  // namespace swiftlet
