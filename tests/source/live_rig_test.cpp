@@ -95,6 +95,14 @@ TEST(LiveRig, is_not_blinded_by_one_stamp_an_hour_ahead_nor_by_a_clock_that_is_s
   EXPECT_EQ(tally.pose_clock.last_back, milliseconds(30'000 - 5));
 }
 
+TEST(LiveRigDeathTest, refuses_a_camera_that_its_rig_does_not_have) {
+  LiveRig rig(kInfo, {.rig = {}, .queue = {.capacity = 2}});
+  DepthFrame image = depth_at(0);
+  image.camera = 1;
+  EXPECT_DEATH(rig.push(image), "no such camera");
+  EXPECT_DEATH((void)rig.last_image(1), "no such camera");
+}
+
 TEST(LiveRig, gives_up_when_the_camera_is_silent_for_too_long) {
   LiveRig rig(kInfo, {.rig = {}, .queue = {}, .patience = milliseconds(20)});
   const auto frame = rig.next();

@@ -67,6 +67,7 @@ void LiveRig::push(const PoseSample& pose) {
 }
 
 void LiveRig::push(DepthFrame depth) {
+  SWIFTLET_REQUIRE(depth.camera < last_images_.size(), "the rig has no such camera");
   const std::lock_guard lock(mutex_);
   ++images_;
   const HostTime now = HostTime::clock::now();
@@ -89,6 +90,7 @@ std::vector<RigEvent> LiveRig::take_events() {
 }
 
 std::optional<HostTime> LiveRig::last_image(std::size_t camera) const {
+  SWIFTLET_REQUIRE(camera < last_images_.size(), "the rig has no such camera");
   const std::lock_guard lock(mutex_);
   return last_images_[camera];
 }

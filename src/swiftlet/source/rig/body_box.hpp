@@ -32,7 +32,6 @@ class BodyBoxMask {
   void clear(DepthImage& depth) const;
 
   [[nodiscard]] const PinholeIntrinsics& intrinsics() const { return intrinsics_; }
-  [[nodiscard]] std::size_t pixel_count() const { return stretches_.size(); }
 
  private:
   /// Depths (z) between which the ray of a pixel is in the box.

@@ -98,8 +98,6 @@ class Rig {
 
   [[nodiscard]] const FrameTally& tally() const { return tally_; }
   [[nodiscard]] const RigFacts& facts() const { return facts_; }
-  /// Alarm: images come, but the tracker has said nothing for `stale_after`.
-  [[nodiscard]] bool is_pose_stale() const { return is_stale_; }
   [[nodiscard]] ClockDomain pose_clock() const { return poses_.clock(); }
   [[nodiscard]] const Options& options() const { return options_; }
 
