@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/salvage_report.hpp"
+#include "swiftlet/app/report/checked_files.hpp"
+#include "swiftlet/app/report/salvage_report.hpp"
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/store/map_file/salvage.hpp"
-#include "swiftlet/app/report/checked_files.hpp"
 
 namespace swiftlet::app {
 namespace {

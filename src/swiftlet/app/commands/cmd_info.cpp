@@ -8,16 +8,16 @@
 #include <nlohmann/json.hpp>
 
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/app/commands/map_flags.hpp"
+#include "swiftlet/app/report/bag_summary.hpp"
+#include "swiftlet/app/report/octomap_summary.hpp"
+#include "swiftlet/app/report/salvage_report.hpp"
+#include "swiftlet/app/report/summary.hpp"
+#include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/file/file_kind.hpp"
 #include "swiftlet/session/flight_file.hpp"
 #include "swiftlet/store/map_reader.hpp"
-#include "swiftlet/app/report/octomap_summary.hpp"
 #include "swiftlet/store/opened_map.hpp"
-#include "swiftlet/app/salvage_report.hpp"
-#include "swiftlet/app/report/summary.hpp"
-#include "swiftlet/app/commands/map_flags.hpp"
-#include "swiftlet/app/report/bag_summary.hpp"
-#include "swiftlet/app/visible_text.hpp"
 
 namespace swiftlet::app {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/app/salvage_report.hpp"
+#include "swiftlet/app/report/salvage_report.hpp"
 
 #include <nlohmann/json.hpp>
 
