@@ -28,7 +28,7 @@ void write_map(const std::filesystem::path& path) {
   std::vector<std::pair<BlockIndex, VoxelBlock>> blocks;
   for (int i = 0; i < kBlocks; ++i) {
     VoxelBlock block;
-    block.cells.fill(static_cast<LogOdds>(i % 2 == 0 ? 250 : 10));
+    block.cells.fill(static_cast<QuantizedLogOdds>(i % 2 == 0 ? 250 : 10));
     blocks.push_back({{i % 8, i / 8, 0}, block});
   }
   ASSERT_TRUE(save_blocks(path, blocks, {{"voxel_m", "0.1"}, {"frames", "1"}}));

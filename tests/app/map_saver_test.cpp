@@ -21,7 +21,8 @@ station::MapCopy random_copy(test::Random& random, std::size_t count) {
   std::map<BlockIndex, VoxelBlock> blocks;
   while (blocks.size() < count) {
     VoxelBlock block;
-    for (LogOdds& cell : block.cells) cell = static_cast<LogOdds>(random.integer(0, 255));
+    for (QuantizedLogOdds& cell : block.cells)
+      cell = static_cast<QuantizedLogOdds>(random.integer(0, 255));
     const auto place = [&] { return random.integer(-100'000, 100'000); };
     blocks[{place(), place(), place()}] = block;
   }

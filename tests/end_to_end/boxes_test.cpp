@@ -52,7 +52,7 @@ const Mapper& small_box() {
 std::vector<int> cells_in_row(const Mapper& mapper, int x, Occupancy state) {
   std::vector<int> found;
   for (int y = -8; y < 8; ++y) {
-    const LogOdds cell = mapper.map().log_odds({x, y, kCameraLayer});
+    const QuantizedLogOdds cell = mapper.map().log_odds({x, y, kCameraLayer});
     if (mapper.config().occupancy.classify(cell) == state) found.push_back(y);
   }
   return found;

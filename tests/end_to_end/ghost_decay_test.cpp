@@ -30,7 +30,7 @@ std::size_t occupied_air(const Mapper& mapper) {
   for (VoxelIndex v = first; v.z <= last.z; ++v.z) {
     for (v.y = first.y; v.y <= last.y; ++v.y) {
       for (v.x = first.x; v.x <= last.x; ++v.x) {
-        const LogOdds cell = mapper.map().log_odds(v);
+        const QuantizedLogOdds cell = mapper.map().log_odds(v);
         count += mapper.config().occupancy.classify(cell) == Occupancy::kOccupied ? 1 : 0;
       }
     }

@@ -36,7 +36,7 @@ int main(int count, char** words) {
   std::vector<std::pair<BlockIndex, VoxelBlock>> blocks;
   for (int i = 0; i < 40; ++i) {
     VoxelBlock block;
-    block.cells.fill(static_cast<LogOdds>(100 + i));
+    block.cells.fill(static_cast<QuantizedLogOdds>(100 + i));
     blocks.push_back({{i, -i, i % 3}, block});
   }
   const MapMeta meta{{"voxel_m", "0.1"},

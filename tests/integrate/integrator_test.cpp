@@ -121,7 +121,7 @@ TEST_P(EveryIntegrator, takes_invalid_pixels_for_no_evidence) {
   RollingMap map = new_map();
   EXPECT_EQ(integrate(map, frame, 1, options()).readings, 0U);
   map.for_each_known_block([](const BlockIndex&, const VoxelBlock& block) {
-    for (const LogOdds cell : block.cells) EXPECT_EQ(cell, kUnknownCell);
+    for (const QuantizedLogOdds cell : block.cells) EXPECT_EQ(cell, kUnknownCell);
   });
 }
 
@@ -208,7 +208,7 @@ TEST(EvidenceSums, round_without_bias) {
         sums.add(voxel_at({0, 0, 0}, cell), static_cast<std::int32_t>(fraction * kOneStep));
       }
       sums.apply(frame, map);
-      for (const LogOdds cell : map.find({0, 0, 0})->cells) total += cell - kUnknownCell;
+      for (const QuantizedLogOdds cell : map.find({0, 0, 0})->cells) total += cell - kUnknownCell;
     }
     EXPECT_NEAR(total / (400.0 * kBlockVoxels), fraction, 0.0055);
   }
@@ -218,7 +218,7 @@ TEST(EvidenceSums, take_a_held_cell_to_unknown_but_not_on_to_free) {
   auto map = RollingMap::create({}).value();
   map.recentre(Eigen::Vector3d::Zero(), nullptr);
   const VoxelIndex held{0, 0, 0}, passed{1, 0, 0}, was_free{2, 0, 0};
-  const auto start = [&](const VoxelIndex& v, LogOdds value) {
+  const auto start = [&](const VoxelIndex& v, QuantizedLogOdds value) {
     map.writable(block_of(v)).cells[offset_in_block(v)] = value;
   };
   start(held, 200);

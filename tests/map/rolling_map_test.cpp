@@ -17,7 +17,7 @@ namespace swiftlet {
 namespace {
 
 using test::Random;
-using Model = std::unordered_map<VoxelIndex, LogOdds, VoxelHash>;
+using Model = std::unordered_map<VoxelIndex, QuantizedLogOdds, VoxelHash>;
 using Blocks = std::unordered_map<BlockIndex, VoxelBlock, BlockHash>;
 
 /// An archive in memory.
@@ -49,11 +49,11 @@ VoxelIndex random_voxel(Random& random, const BlockWindow& window) {
           random.integer(box.first.z, box.last.z)};
 }
 
-void set(RollingMap& map, const VoxelIndex& voxel, LogOdds value) {
+void set(RollingMap& map, const VoxelIndex& voxel, QuantizedLogOdds value) {
   map.writable(block_of(voxel)).cells[offset_in_block(voxel)] = value;
 }
 
-LogOdds lookup(const Model& model, const VoxelIndex& voxel) {
+QuantizedLogOdds lookup(const Model& model, const VoxelIndex& voxel) {
   const auto found = model.find(voxel);
   return found == model.end() ? kUnknownCell : found->second;
 }
@@ -79,7 +79,7 @@ struct HeldSnapshot {
 void expect_same(const HeldSnapshot& held, Random& random) {
   ASSERT_EQ(held.snapshot.window(), held.window);
   for (const auto& [voxel, value] : held.cells) {
-    const LogOdds expected = held.window.contains(block_of(voxel)) ? value : kUnknownCell;
+    const QuantizedLogOdds expected = held.window.contains(block_of(voxel)) ? value : kUnknownCell;
     ASSERT_EQ(held.snapshot.log_odds(voxel), expected) << random.repeat();
   }
 }
@@ -100,7 +100,7 @@ void run_model_test(bool keeps) {
       const double choice = random.real(0.0, 1.0);
       const VoxelIndex voxel = random_voxel(random, map.window());
       if (choice < 0.55) {
-        const auto value = static_cast<LogOdds>(random.integer(0, 255));
+        const auto value = static_cast<QuantizedLogOdds>(random.integer(0, 255));
         set(map, voxel, value);
         model.cells[voxel] = value;
       } else if (choice < 0.9) {
@@ -174,7 +174,8 @@ TEST(RollingMap, there_and_back_keeps_what_never_left_and_restores_the_rest_bit_
   for_each_block(map.window(), [&](const BlockIndex& b) {
     if (random.chance(0.5)) return;
     VoxelBlock& block = map.writable(b);
-    for (LogOdds& cell : block.cells) cell = static_cast<LogOdds>(random.integer(0, 255));
+    for (QuantizedLogOdds& cell : block.cells)
+      cell = static_cast<QuantizedLogOdds>(random.integer(0, 255));
     before[b] = block;
   });
   const auto away = map.recentre({3.0, -2.0, 0.0}, &archive);
@@ -273,9 +274,9 @@ TEST(MapReader, sees_whole_frames_only_from_several_threads) {
     while (!stop) {
       auto snapshot = reader.latest();
       if (!snapshot) continue;
-      const auto expected = static_cast<LogOdds>(snapshot->frame_count() % 256);
+      const auto expected = static_cast<QuantizedLogOdds>(snapshot->frame_count() % 256);
       snapshot->for_each_known_block([&](const BlockIndex&, const VoxelBlock& block) {
-        for (const LogOdds cell : block.cells) torn += cell == expected ? 0 : 1;
+        for (const QuantizedLogOdds cell : block.cells) torn += cell == expected ? 0 : 1;
       });
       ++seen;
       if (seen % 7 == 0) kept = std::move(snapshot);  // some readers are slow to let go
@@ -284,7 +285,7 @@ TEST(MapReader, sees_whole_frames_only_from_several_threads) {
   std::thread a(read, map.reader()), b(read, map.reader()), c(read, map.reader());
   for (std::uint64_t frame = 1; frame <= 3000 || seen < 100; ++frame) {
     for_each_block(map.window(), [&](const BlockIndex& index) {
-      map.writable(index).cells.fill(static_cast<LogOdds>(frame % 256));
+      map.writable(index).cells.fill(static_cast<QuantizedLogOdds>(frame % 256));
     });
     map.publish(frame);
   }

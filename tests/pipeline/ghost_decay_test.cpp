@@ -45,7 +45,7 @@ class Watched {
     }
   }
   void wait(double for_s) { now_ = now_ + Nanoseconds(std::llround(for_s * 1e9)); }
-  [[nodiscard]] LogOdds at(const VoxelIndex& v) const { return mapper_.map().log_odds(v); }
+  [[nodiscard]] QuantizedLogOdds at(const VoxelIndex& v) const { return mapper_.map().log_odds(v); }
   [[nodiscard]] Occupancy claim(const VoxelIndex& v) const {
     return mapper_.config().occupancy.classify(at(v));
   }

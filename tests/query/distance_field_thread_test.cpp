@@ -38,7 +38,7 @@ struct Flight {
       const BlockIndex b{w.first.x + random.integer(0, w.size.x - 1),
                          w.first.y + random.integer(0, w.size.y - 1),
                          w.first.z + random.integer(0, w.size.z - 1)};
-      for (LogOdds& cell : map->writable(b).cells) cell = random.chance(0.02) ? 220 : 20;
+      for (QuantizedLogOdds& cell : map->writable(b).cells) cell = random.chance(0.02) ? 220 : 20;
     }
     map->publish(++frames);
   }

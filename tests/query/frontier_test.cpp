@@ -58,12 +58,12 @@ void change_something(RollingMap& map, Random& random) {
                        random.integer(window.first.z, window.last.z)};
     const int edge = random.integer(1, 12);
     const bool is_noise = random.chance(0.3);
-    const auto value = static_cast<LogOdds>(random.integer(0, 255));
+    const auto value = static_cast<QuantizedLogOdds>(random.integer(0, 255));
     for (VoxelIndex v = a; v.z <= std::min(a.z + edge, window.last.z); ++v.z) {
       for (v.y = a.y; v.y <= std::min(a.y + edge, window.last.y); ++v.y) {
         for (v.x = a.x; v.x <= std::min(a.x + edge, window.last.x); ++v.x) {
           map.writable(block_of(v)).cells[offset_in_block(v)] =
-              is_noise ? static_cast<LogOdds>(random.integer(0, 255)) : value;
+              is_noise ? static_cast<QuantizedLogOdds>(random.integer(0, 255)) : value;
         }
       }
     }

@@ -23,7 +23,7 @@ RollingMap random_map(Random& random) {
   map->recentre(Eigen::Vector3d::Zero(), nullptr);
   for_each_block(map->window(), [&](const BlockIndex& b) {
     if (random.chance(0.2)) return;
-    for (LogOdds& cell : map->writable(b).cells) {
+    for (QuantizedLogOdds& cell : map->writable(b).cells) {
       cell = random.chance(0.03) ? 200 : random.chance(0.03) ? kUnknownCell : 20;
     }
   });

@@ -27,7 +27,7 @@ Transform<World, Body> at(const Eigen::Vector3d& p_world) {
 
 /// A random belief in every cell.
 void fill_with_everything(HandMadeMap& world, Random& random) {
-  constexpr std::array<LogOdds, 3> kValues{test::kFree, kUnknownCell, test::kOccupied};
+  constexpr std::array<QuantizedLogOdds, 3> kValues{test::kFree, kUnknownCell, test::kOccupied};
   const VoxelBox box = voxel_box(world.map().window());
   for (VoxelIndex v = box.first; v.z <= box.last.z; ++v.z) {
     for (v.y = box.first.y; v.y <= box.last.y; ++v.y) {

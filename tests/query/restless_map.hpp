@@ -59,11 +59,11 @@ class RestlessMap {
       if (random_.chance(0.5)) fill(b, 0.02);
     });
   }
-  LogOdds any_cell(double occupied) {
+  QuantizedLogOdds any_cell(double occupied) {
     return random_.chance(occupied) ? 220 : random_.chance(0.1) ? kUnknownCell : 20;
   }
   void fill(const BlockIndex& b, double occupied) {
-    for (LogOdds& cell : map_->writable(b).cells) cell = any_cell(occupied);
+    for (QuantizedLogOdds& cell : map_->writable(b).cells) cell = any_cell(occupied);
   }
   BlockIndex any_block() {
     const BlockWindow& w = map_->window();

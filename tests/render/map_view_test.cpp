@@ -15,7 +15,7 @@
 namespace swiftlet::render {
 namespace {
 
-void set(LoadedMap& map, const VoxelIndex& v, LogOdds value) {
+void set(LoadedMap& map, const VoxelIndex& v, QuantizedLogOdds value) {
   const auto [block, is_new] = map.blocks.try_emplace(block_of(v));
   if (is_new) block->second.clear();
   block->second.cells[offset_in_block(v)] = value;

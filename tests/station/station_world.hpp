@@ -47,7 +47,7 @@ class RandomFlight {
                          at.z + random_.integer(-7, 7)};
       if (!map_.window().contains(block_of(v))) continue;
       map_.writable(block_of(v)).cells[offset_in_block(v)] =
-          static_cast<LogOdds>(random_.integer(0, 255));
+          static_cast<QuantizedLogOdds>(random_.integer(0, 255));
     }
     map_.publish(++frames_);
     report.number = static_cast<std::uint32_t>(frames_);

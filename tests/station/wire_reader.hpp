@@ -66,7 +66,7 @@ class WireReader {
       ++sum.blocks;
       sum.hash_a += block_hash(index, block, 0);
       sum.hash_b += block_hash(index, block, 1);
-      for (const LogOdds cell : block.cells) {
+      for (const QuantizedLogOdds cell : block.cells) {
         sum.occupied += thresholds.classify(cell) == Occupancy::kOccupied ? 1 : 0;
         sum.free += thresholds.classify(cell) == Occupancy::kFree ? 1 : 0;
       }

@@ -26,7 +26,7 @@ void expect_golden(const std::string& name, const Bytes& bytes) {
 VoxelBlock ramp_block(int first) {
   VoxelBlock block;
   for (std::size_t i = 0; i < block.cells.size(); ++i) {
-    block.cells[i] = static_cast<LogOdds>(first + static_cast<int>(i / 2));
+    block.cells[i] = static_cast<QuantizedLogOdds>(first + static_cast<int>(i / 2));
   }
   return block;
 }

@@ -31,10 +31,11 @@ struct Flight {
     VoxelBlock block;
     for (std::size_t i = 0; i < block.cells.size(); ++i) {
       const auto bits = mix_bits(frame * 512 + i) ^ BlockHash {}(index);
-      block.cells[i] = static_cast<LogOdds>(bits);
+      block.cells[i] = static_cast<QuantizedLogOdds>(bits);
     }
     // The frame itself, in the first cells.
-    for (std::size_t i = 0; i < 4; ++i) block.cells[i] = static_cast<LogOdds>(frame >> (8 * i));
+    for (std::size_t i = 0; i < 4; ++i)
+      block.cells[i] = static_cast<QuantizedLogOdds>(frame >> (8 * i));
     return block;
   }
   static std::uint64_t frame_of(const VoxelBlock& block) {

@@ -34,7 +34,7 @@ TEST(OctomapBlocks, lays_out_leaves_of_every_size_that_fits) {
       ASSERT_TRUE(out) << out.error().text();
       std::uint64_t cells = 0;
       for (const auto& [index, block] : out->blocks) {
-        for (const LogOdds cell : block.cells) {
+        for (const QuantizedLogOdds cell : block.cells) {
           const auto state = kLaidOut.classify(cell);
           if (state == Occupancy::kUnknown) continue;
           EXPECT_EQ(state == Occupancy::kOccupied, is_occupied);

@@ -46,13 +46,14 @@ inline Blocks blocks_in(const MapSnapshot& map) {
 /// A block whose cells all differ from unknown now and then; compresses as badly as any.
 inline VoxelBlock random_block(Random& random) {
   VoxelBlock block;
-  for (LogOdds& cell : block.cells) cell = static_cast<LogOdds>(random.integer(0, 255));
+  for (QuantizedLogOdds& cell : block.cells)
+    cell = static_cast<QuantizedLogOdds>(random.integer(0, 255));
   return block;
 }
 
 inline VoxelBlock block_full_of(int value) {
   VoxelBlock block;
-  block.cells.fill(static_cast<LogOdds>(value));
+  block.cells.fill(static_cast<QuantizedLogOdds>(value));
   return block;
 }
 

@@ -40,7 +40,7 @@ void change_some(RollingMap& map, Random& random, int blocks) {
                        w.first.y + random.integer(0, w.size.y - 1),
                        w.first.z + random.integer(0, w.size.z - 1)};
     map.writable(b).cells[static_cast<std::size_t>(random.integer(0, 511))] =
-        static_cast<LogOdds>(random.integer(0, 255));
+        static_cast<QuantizedLogOdds>(random.integer(0, 255));
   }
 }
 

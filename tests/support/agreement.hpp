@@ -36,9 +36,9 @@ struct Agreement {
                        cells, 100 * class_share(), 100 * clear_class_share(), mean_difference());
   }
 
-  void add(LogOdds a, LogOdds b) {
+  void add(QuantizedLogOdds a, QuantizedLogOdds b) {
     constexpr OccupancyThresholds thresholds;
-    const auto is_near = [&](LogOdds cell) {
+    const auto is_near = [&](QuantizedLogOdds cell) {
       return std::abs(2 * (cell - thresholds.free_below) + 1) <= 3 ||
              std::abs(2 * (cell - thresholds.occupied_from) + 1) <= 3;
     };

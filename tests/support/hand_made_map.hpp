@@ -11,8 +11,8 @@
 
 namespace swiftlet::test {
 
-inline constexpr LogOdds kFree = 20;
-inline constexpr LogOdds kOccupied = 230;
+inline constexpr QuantizedLogOdds kFree = 20;
+inline constexpr QuantizedLogOdds kOccupied = 230;
 
 /// A map for tests of what is asked of it: a window around the origin, filled by hand.
 class HandMadeMap {
@@ -23,15 +23,15 @@ class HandMadeMap {
   }
 
   [[nodiscard]] RollingMap& map() { return map_; }
-  void set(const VoxelIndex& v, LogOdds value) {
+  void set(const VoxelIndex& v, QuantizedLogOdds value) {
     if (!map_.window().contains(block_of(v))) return;
     map_.writable(block_of(v)).cells[offset_in_block(v)] = value;
   }
-  void set_at(const Eigen::Vector3d& p_world, LogOdds value) {
+  void set_at(const Eigen::Vector3d& p_world, QuantizedLogOdds value) {
     set(voxel_containing(p_world, map_.voxel_m()), value);
   }
   /// All cells that a box touches.
-  void fill(const Eigen::Vector3d& low, const Eigen::Vector3d& high, LogOdds value) {
+  void fill(const Eigen::Vector3d& low, const Eigen::Vector3d& high, QuantizedLogOdds value) {
     const VoxelIndex a = voxel_containing(low, map_.voxel_m());
     const VoxelIndex b = voxel_containing(high, map_.voxel_m());
     for (VoxelIndex v = a; v.z <= b.z; ++v.z) {
@@ -40,7 +40,7 @@ class HandMadeMap {
       }
     }
   }
-  void fill_window(LogOdds value) {
+  void fill_window(QuantizedLogOdds value) {
     for_each_block(map_.window(), [&](const BlockIndex& b) { map_.writable(b).cells.fill(value); });
   }
   [[nodiscard]] MapSnapshot snapshot() {

@@ -39,7 +39,7 @@ struct MapBits {
       for (int shift = 0; shift < 32; shift += 8)
         bits.add(static_cast<std::uint32_t>(i) >> static_cast<unsigned>(shift));
     }
-    for (const LogOdds cell : block.cells) {
+    for (const QuantizedLogOdds cell : block.cells) {
       bits.add(cell);
       bits.known_cells += cell == kUnknownCell ? 0 : 1;
     }

@@ -10,14 +10,16 @@ namespace swiftlet {
 
 /// Belief about one cell: log-odds in steps around 127, saturating. The values are on disk and on
 /// the wire.
-using LogOdds = std::uint8_t;
-inline constexpr LogOdds kFreeCell = 0;
-inline constexpr LogOdds kUnknownCell = 127;  ///< L = 0: prior, or evidence that cancels out
-inline constexpr LogOdds kOccupiedCell = 255;
+using QuantizedLogOdds = std::uint8_t;
+inline constexpr QuantizedLogOdds kFreeCell = 0;
+inline constexpr QuantizedLogOdds kUnknownCell =
+    127;  ///< L = 0: prior, or evidence that cancels out
+inline constexpr QuantizedLogOdds kOccupiedCell = 255;
 
 /// Adds whole steps; saturates at both ends.
-[[nodiscard]] constexpr LogOdds add_steps(LogOdds cell, std::int32_t steps) {
-  return static_cast<LogOdds>(std::clamp<std::int32_t>(cell + steps, kFreeCell, kOccupiedCell));
+[[nodiscard]] constexpr QuantizedLogOdds add_steps(QuantizedLogOdds cell, std::int32_t steps) {
+  return static_cast<QuantizedLogOdds>(
+      std::clamp<std::int32_t>(cell + steps, kFreeCell, kOccupiedCell));
 }
 
 /// What a planner makes of a cell. The values are on the wire.
@@ -28,7 +30,7 @@ struct OccupancyThresholds {
   int free_below = 107;     ///< 20 steps below unknown: one whole free observation (method 6)
   int occupied_from = 180;  ///< the thesis's value
 
-  [[nodiscard]] constexpr Occupancy classify(LogOdds cell) const {
+  [[nodiscard]] constexpr Occupancy classify(QuantizedLogOdds cell) const {
     if (cell >= occupied_from) return Occupancy::kOccupied;
     return cell < free_below ? Occupancy::kFree : Occupancy::kUnknown;
   }

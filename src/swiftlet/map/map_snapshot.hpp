@@ -31,7 +31,7 @@ class MapSnapshot {
   /// window, too.
   [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const;
 
-  [[nodiscard]] LogOdds log_odds(const VoxelIndex& voxel) const {
+  [[nodiscard]] QuantizedLogOdds log_odds(const VoxelIndex& voxel) const {
     const VoxelBlock* block = find(block_of(voxel));
     return block == nullptr ? kUnknownCell : block->cells[offset_in_block(voxel)];
   }

@@ -66,7 +66,7 @@ class RollingMap {
   /// Snapshots that readers hold keep what they show. Cost: O(blocks of the window).
   void clear();
 
-  [[nodiscard]] LogOdds log_odds(const VoxelIndex& voxel) const {
+  [[nodiscard]] QuantizedLogOdds log_odds(const VoxelIndex& voxel) const {
     const VoxelBlock* block = find(block_of(voxel));
     return block == nullptr ? kUnknownCell : block->cells[offset_in_block(voxel)];
   }

@@ -13,7 +13,7 @@ namespace swiftlet {
 /// 8 x 8 x 8 cells, x fastest, then y, then z (see offset_in_block()). 512 bytes: eight cache
 /// lines.
 struct alignas(64) VoxelBlock {
-  std::array<LogOdds, kBlockVoxels> cells;
+  std::array<QuantizedLogOdds, kBlockVoxels> cells;
 
   void clear() { cells.fill(kUnknownCell); }
   friend bool operator==(const VoxelBlock&, const VoxelBlock&) = default;

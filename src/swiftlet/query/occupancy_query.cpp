@@ -6,7 +6,7 @@
 namespace swiftlet {
 
 void CellCounts::add(const VoxelBlock& block, const OccupancyThresholds& thresholds) {
-  for (const LogOdds cell : block.cells) {
+  for (const QuantizedLogOdds cell : block.cells) {
     switch (thresholds.classify(cell)) {
       case Occupancy::kFree:
         ++free;

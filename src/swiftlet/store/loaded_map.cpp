@@ -29,8 +29,8 @@ LoadedMap coarser(const LoadedMap& map, int cells) {
     const VoxelIndex large{place(v.x), place(v.y), place(v.z)};
     const auto [block, is_new] = out.blocks.try_emplace(block_of(large));
     if (is_new) block->second.clear();
-    LogOdds& kept = block->second.cells[offset_in_block(large)];
-    const LogOdds cell = map.log_odds(v);
+    QuantizedLogOdds& kept = block->second.cells[offset_in_block(large)];
+    const QuantizedLogOdds cell = map.log_odds(v);
     const Occupancy before = map.thresholds.classify(kept);
     if (before == Occupancy::kUnknown || (state == Occupancy::kOccupied && before != state)) {
       kept = cell;

@@ -20,7 +20,7 @@ struct LoadedMap {
   std::unordered_map<BlockIndex, VoxelBlock, BlockHash> blocks{};
   Eigen::Vector3d start_m = Eigen::Vector3d::Zero();  ///< camera at the first frame [world]
 
-  [[nodiscard]] LogOdds log_odds(const VoxelIndex& voxel) const {
+  [[nodiscard]] QuantizedLogOdds log_odds(const VoxelIndex& voxel) const {
     const auto found = blocks.find(block_of(voxel));
     return found == blocks.end() ? kUnknownCell : found->second.cells[offset_in_block(voxel)];
   }

@@ -18,7 +18,7 @@ int occupied_at(const Mapper& mapper, std::int32_t x) {
   int count = 0;
   for (std::int32_t y = -5; y <= 4; ++y) {
     for (std::int32_t z = 0; z <= 12; ++z) {
-      const LogOdds cell = mapper.map().log_odds({x, y, z});
+      const QuantizedLogOdds cell = mapper.map().log_odds({x, y, z});
       count += mapper.config().occupancy.classify(cell) == Occupancy::kOccupied ? 1 : 0;
     }
   }

@@ -24,7 +24,7 @@ constexpr std::size_t kFrames = 100;
 std::vector<int> occupied_in_row(const Mapper& mapper, std::int32_t x) {
   std::vector<int> found;
   for (int y = -8; y < 8; ++y) {
-    const LogOdds cell = mapper.map().log_odds({x, y, 0});
+    const QuantizedLogOdds cell = mapper.map().log_odds({x, y, 0});
     if (mapper.config().occupancy.classify(cell) == Occupancy::kOccupied) found.push_back(y);
   }
   return found;

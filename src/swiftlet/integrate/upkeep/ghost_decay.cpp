@@ -19,7 +19,7 @@ constexpr float kBandSigma = 3.0F;      // a reading so far behind a cell is not
 
 /// Cells above unknown have the highest bit set: eight cells at a time.
 constexpr std::uint64_t kAboveUnknown = 0x8080'8080'8080'8080U;
-static_assert(kUnknownCell == 0x7f && sizeof(LogOdds) == 1);
+static_assert(kUnknownCell == 0x7f && sizeof(QuantizedLogOdds) == 1);
 
 std::uint64_t row_of_cells(const VoxelBlock& block, int first) {
   std::uint64_t row = 0;
@@ -135,8 +135,8 @@ std::size_t GhostDecay::decay_block(const CubeView& view, const BlockIndex& inde
                             corner.z + first / (kBlockEdge * kBlockEdge)};
       if (!is_nothing_there(view, view.cube(cell, 1))) continue;
       if (block == nullptr) known = block = &map.writable(index);
-      block->cells[place] =
-          static_cast<LogOdds>(std::max<std::int32_t>(block->cells[place] - steps, kUnknownCell));
+      block->cells[place] = static_cast<QuantizedLogOdds>(
+          std::max<std::int32_t>(block->cells[place] - steps, kUnknownCell));
       ++count;
     }
   }

@@ -99,7 +99,7 @@ std::size_t ThinHits::protect(RollingMap& map) {
   for (const std::uint32_t place : touched_) {
     const Slot& slot = slots_[place];
     if (slot.hits < kLeastHits) continue;
-    const LogOdds least = add_steps(slot.before, kGain);
+    const QuantizedLogOdds least = add_steps(slot.before, kGain);
     if (map.log_odds(slot.cell) >= least) continue;
     map.writable(block_of(slot.cell)).cells[offset_in_block(slot.cell)] = least;
     ++raised;

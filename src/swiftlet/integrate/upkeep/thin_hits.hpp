@@ -50,7 +50,7 @@ class ThinHits {
     VoxelIndex cell;
     std::uint32_t frame = 0;  // the slot is empty in any other
     int hits = 0;
-    LogOdds before = kUnknownCell;
+    QuantizedLogOdds before = kUnknownCell;
   };
   /// A square of pixels; false: there is no ridge in it.
   [[nodiscard]] bool may_have_ridge(const PyramidTiles& tiles, int tile_u, int tile_v) const;

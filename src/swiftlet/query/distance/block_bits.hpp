@@ -42,7 +42,8 @@ inline constexpr std::uint64_t kBytes = 0x0101010101010101U;
   if (least <= kFreeCell) return ~std::uint64_t{0};
   if (least > kOccupiedCell) return 0;
   std::uint64_t bits = 0;
-  const LogOdds* row = block.cells.data() + std::ptrdiff_t{layer} * kBlockEdge * kBlockEdge;
+  const QuantizedLogOdds* row =
+      block.cells.data() + std::ptrdiff_t{layer} * kBlockEdge * kBlockEdge;
   for (int y = 0; y < kBlockEdge; ++y, row += kBlockEdge) {
     std::uint64_t cells = 0;
     std::memcpy(&cells, row, sizeof cells);
@@ -53,8 +54,8 @@ inline constexpr std::uint64_t kBytes = 0x0101010101010101U;
 
 /// Whether any cell is `least` or more: one pass of vectors, much quicker than its bits.
 [[nodiscard]] inline bool has_cell_at_least(const VoxelBlock& block, int least) {
-  LogOdds largest = 0;
-  for (const LogOdds cell : block.cells) largest = std::max(largest, cell);
+  QuantizedLogOdds largest = 0;
+  for (const QuantizedLogOdds cell : block.cells) largest = std::max(largest, cell);
   return largest >= least;
 }
 

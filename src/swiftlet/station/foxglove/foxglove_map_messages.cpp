@@ -17,7 +17,7 @@ Bytes occupied_cells(const MapWatch& watch) {
   const double voxel_m = watch.facts().voxel_m;
   watch.map().for_each_block([&](const BlockIndex& index, const VoxelBlock& block) {
     for (int i = 0; i < kBlockVoxels; ++i) {
-      const LogOdds cell = block.cells[static_cast<std::size_t>(i)];
+      const QuantizedLogOdds cell = block.cells[static_cast<std::size_t>(i)];
       if (watch.facts().thresholds.classify(cell) != Occupancy::kOccupied) continue;
       for (const double v : centre_of(voxel_at(index, i), voxel_m)) point.f32(v);
       point.u8(cell);
@@ -48,7 +48,7 @@ Bytes window_grid(const MapWatch& watch) {
   constexpr std::int32_t kZ = (2 * kHalf.z + 1) * kBlockEdge;
   Bytes cells;
   cells.reserve(std::size_t{kCellBytes} * kX * kY * kZ);
-  const auto write_cell = [&](LogOdds cell) {
+  const auto write_cell = [&](QuantizedLogOdds cell) {
     cells.push_back(cell);
     switch (watch.facts().thresholds.classify(cell)) {
       case Occupancy::kOccupied:

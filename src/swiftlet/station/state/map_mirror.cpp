@@ -28,7 +28,8 @@ void subtract(MapDigest& sum, const MapDigest& share) {
 }
 
 bool holds_only_unknown(const VoxelBlock& block) {
-  return std::ranges::all_of(block.cells, [](LogOdds cell) { return cell == kUnknownCell; });
+  return std::ranges::all_of(block.cells,
+                             [](QuantizedLogOdds cell) { return cell == kUnknownCell; });
 }
 
 }  // namespace

@@ -30,14 +30,14 @@ class BlockProgress {
   const ExportProgress& progress_;
 };
 
-/// Calls visit(VoxelIndex, LogOdds, Occupancy) for every free and occupied cell of a map.
+/// Calls visit(VoxelIndex, QuantizedLogOdds, Occupancy) for every free and occupied cell of a map.
 template <class Visit>
 [[nodiscard]] Status for_each_known_cell(const SavedMap& map, const OccupancyThresholds& thresholds,
                                          const ExportProgress& progress, Visit&& visit) {
   BlockProgress blocks(map, progress);
   auto passed = map.for_each_block([&](const BlockIndex& index, const VoxelBlock& block) -> Status {
     for (int offset = 0; offset < kBlockVoxels; ++offset) {
-      const LogOdds cell = block.cells[static_cast<std::size_t>(offset)];
+      const QuantizedLogOdds cell = block.cells[static_cast<std::size_t>(offset)];
       const Occupancy state = thresholds.classify(cell);
       if (state != Occupancy::kUnknown) visit(voxel_at(index, offset), cell, state);
     }

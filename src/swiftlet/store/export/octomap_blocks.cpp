@@ -12,13 +12,13 @@
 namespace swiftlet {
 namespace {
 
-LogOdds cell_of(float log_odds, bool is_occupied, const OccupancyThresholds& thresholds) {
+QuantizedLogOdds cell_of(float log_odds, bool is_occupied, const OccupancyThresholds& thresholds) {
   const float steps = std::round(log_odds / OctomapBlocks::kLogoddsPerStep);
   const float kept = std::isfinite(steps) ? std::clamp(steps, -128.0F, 128.0F) : 0.0F;
   const int cell = kUnknownCell + static_cast<int>(kept);
-  return static_cast<LogOdds>(is_occupied
-                                  ? std::clamp(cell, thresholds.occupied_from, int{kOccupiedCell})
-                                  : std::clamp(cell, int{kFreeCell}, thresholds.free_below - 1));
+  return static_cast<QuantizedLogOdds>(
+      is_occupied ? std::clamp(cell, thresholds.occupied_from, int{kOccupiedCell})
+                  : std::clamp(cell, int{kFreeCell}, thresholds.free_below - 1));
 }
 
 /// Lays out leaves as long as there is room.
@@ -31,7 +31,7 @@ class BlockFiller {
     // The log-odds of a .bt's leaf are 0.
     const float of_state =
         leaf.is_occupied ? OctomapBlocks::kOccupied_logodds : OctomapBlocks::kFree_logodds;
-    const LogOdds cell =
+    const QuantizedLogOdds cell =
         cell_of(leaf.log_odds == 0.0F ? of_state : leaf.log_odds, leaf.is_occupied, thresholds_);
     leaf.edge < kBlockEdge ? fill_cells(leaf, cell) : fill_blocks(leaf, cell);
   }
@@ -49,7 +49,7 @@ class BlockFiller {
   }
 
   /// A leaf that is smaller than a block lies within one: both are cut at multiples of their edge.
-  void fill_cells(const OctomapLeaf& leaf, LogOdds cell) {
+  void fill_cells(const OctomapLeaf& leaf, QuantizedLogOdds cell) {
     VoxelBlock* const target = block(block_of(leaf.first));
     if (target == nullptr) return;
     const VoxelIndex& f = leaf.first;
@@ -61,7 +61,7 @@ class BlockFiller {
     }
   }
 
-  void fill_blocks(const OctomapLeaf& leaf, LogOdds cell) {
+  void fill_blocks(const OctomapLeaf& leaf, QuantizedLogOdds cell) {
     const std::int32_t edge = leaf.edge / kBlockEdge;
     const auto blocks = static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge) *
                         static_cast<std::uint64_t>(edge);

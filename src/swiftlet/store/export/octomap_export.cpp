@@ -48,7 +48,7 @@ float logodds_per_step(const SavedMap& map) {
 
 /// The cell's log-odds, with the sign of its state: OctoMap takes what is >= 0 for occupied, ours
 /// has two thresholds.
-float octomap_logodds(LogOdds cell, Occupancy state, float per_step) {
+float octomap_logodds(QuantizedLogOdds cell, Occupancy state, float per_step) {
   const float value = static_cast<float>(cell - kUnknownCell) * per_step;
   return state == Occupancy::kOccupied ? std::max(value, per_step) : std::min(value, -per_step);
 }
@@ -63,7 +63,7 @@ Expected<std::unique_ptr<octomap::OcTree>> build_tree(const SavedMap& map,
   tree->setClampingThresMax(1.0 - 1e-4);
   bool fits = true;
   auto passed = for_each_known_cell(
-      map, thresholds, progress, [&](const VoxelIndex& v, LogOdds cell, Occupancy state) {
+      map, thresholds, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
         fits = fits && has_key(v);
         if (!fits) return;
         tree->setNodeValue(key_of(v), octomap_logodds(cell, state, per_step), true);

@@ -33,7 +33,7 @@ Status export_pcd(const SavedMap& map, const OccupancyThresholds& thresholds,
                   "WIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
                   points, shift));
   auto passed = for_each_known_cell(
-      map, thresholds, progress, [&](const VoxelIndex& v, LogOdds cell, Occupancy state) {
+      map, thresholds, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
         if (state != Occupancy::kOccupied) return;
         const Eigen::Vector3f p = (centre_of(v, map.voxel_m()) - origin_m).cast<float>();
         const auto intensity = static_cast<float>(cell);

@@ -55,7 +55,7 @@ Status export_ply(const SavedMap& map, const OccupancyThresholds& thresholds,
   const VoxelBox box = summary->bounds.value_or(VoxelBox{});
   const double height = std::max(1, box.last.z - box.first.z);
   auto passed = for_each_known_cell(
-      map, thresholds, progress, [&](const VoxelIndex& v, LogOdds cell, Occupancy state) {
+      map, thresholds, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
         if (state != Occupancy::kOccupied) return;
         for (const double c : centre_of(v, map.voxel_m())) {
           is_float ? file->write_little_endian(static_cast<float>(c))
