@@ -60,7 +60,7 @@ void ghosts(benchmark::State& state) {
   const Frame& frame = frames().back();
   ConditionedDepth depth;
   depth.raw = frame.depth.raw;
-  DepthPyramid pyramid;
+  DepthRangePyramid pyramid;
   pyramid.build(depth.raw);
   const DepthView view{depth, pyramid, frame.intrinsics, frame.T_world_camera, 0};
   GhostDecay decay(2.0);

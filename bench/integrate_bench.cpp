@@ -54,7 +54,7 @@ void integrate(benchmark::State& state, const char* name) {
   const double voxel_m = voxel_of(state);
   auto integrator = make_integrator({.integrator = name});
   auto map = RollingMap::create({.voxel_m = voxel_m});
-  DepthPyramid pyramid;
+  DepthRangePyramid pyramid;
   std::size_t i = 0;
   for (auto _ : state) {
     const Frame& frame = f.frames[i % f.frames.size()];

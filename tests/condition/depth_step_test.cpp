@@ -110,7 +110,7 @@ TEST(RangeGate, keeps_readings_on_both_limits_and_drops_the_next_ones) {
 /// Whether two readings belong to one surface, from the definition.
 bool agree(int a, int z, const ConditionedDepth& depth) {
   const auto d = static_cast<float>(z);
-  const float square = 3.0F * 1.41421356F * depth.noise_per_m * depth.unit_m;
+  const float square = 3.0F * 1.41421356F * depth.sigma_per_z2 * depth.unit_m;
   const float most = std::min(1300.0F, d - 1.0F);
   const float tolerance = std::max(0.0F, std::min(1.0F + 0.01F * d + square * d * d, most));
   return a != 0 && z != 0 && std::abs(a - z) <= static_cast<int>(tolerance);

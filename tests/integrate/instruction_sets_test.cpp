@@ -22,7 +22,7 @@ std::vector<VoxelBlock> mapped(std::uint64_t seed, CellShape shape, int threads 
   const auto integrator = *make_integrator({.integrator = "projective", .threads = threads});
   auto conditioner =
       Conditioner::create({.steps = {"range_gate", "smooth", "near_downsample"}, .downsample = 1});
-  DepthPyramid pyramid;
+  DepthRangePyramid pyramid;
   for (std::uint64_t i = 0; i < 4; ++i) {
     const Frame frame = test::random_frame(random, test::small_camera(163, 121));
     const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, 0.004);
@@ -66,7 +66,7 @@ TEST(Projective, counts_the_blocks_that_a_deadline_leaves) {
   const Frame frame = test::random_frame(random, test::small_camera());
   auto conditioner = Conditioner::create({.downsample = 1});
   const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, 0.004);
-  DepthPyramid pyramid;
+  DepthRangePyramid pyramid;
   pyramid.build(depth.raw);
   const DepthView view{depth, pyramid, frame.intrinsics, frame.T_world_camera, 0};
   const StereoSensor sensor(frame.intrinsics, {}, 0.1, 1);

@@ -50,7 +50,7 @@ IntegrationTally integrate(RollingMap& map, const Frame& frame, int ratio,
   condition.downsample = ratio;
   auto conditioner = Conditioner::create(condition);
   const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, {});
-  DepthPyramid pyramid;
+  DepthRangePyramid pyramid;
   pyramid.build(depth.raw);
   const StereoSensor sensor(frame.intrinsics, SensorOptions{}, kVoxel_m, depth.ratio);
   return (*make_integrator(options))

@@ -74,7 +74,7 @@ TEST(ThinHits, find_nothing_thin_in_a_wall_nor_at_the_edge_of_something_wide) {
   map.recentre(Eigen::Vector3d::Zero(), nullptr);
   ConditionedDepth depth;
   depth.raw = frame.depth.raw;
-  DepthPyramid pyramid;
+  DepthRangePyramid pyramid;
   pyramid.build(depth.raw);
   ThinHits hits;
   hits.collect({depth, pyramid, frame.intrinsics, frame.T_world_camera, 0}, map);
@@ -88,7 +88,7 @@ TEST(ThinHits, never_make_more_of_the_map_than_it_holds) {
   auto map = RollingMap::create({.voxel_m = 0.02, .size_m = {4, 4, 4}}).value();
   map.recentre(Eigen::Vector3d::Zero(), nullptr);
   ThinHits hits;
-  DepthPyramid pyramid;
+  DepthRangePyramid pyramid;
   for (int i = 0; i < 5; ++i) {
     Frame frame = test::wall_frame(camera, 1.0);
     for (std::uint16_t& d : frame.depth.raw.pixels())

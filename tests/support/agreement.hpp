@@ -143,7 +143,7 @@ class AgreementCheck {
   RollingMap candidate_map_, reference_map_;
   std::unique_ptr<Integrator> candidate_, reference_;
   Conditioner conditioner_;
-  DepthPyramid pyramid_;
+  DepthRangePyramid pyramid_;
   SensorOptions options_;
   CellShape shape_;
   TraceRay trace_;

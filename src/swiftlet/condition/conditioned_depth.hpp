@@ -29,7 +29,7 @@ struct ConditionedDepth {
   int ratio = 1;  ///< n: how many pixels of the full image one pixel stands for, along each side
   Image<PixelOrigin> origin;  ///< same shape as raw; empty while ratio is 1
   /// Deviation of a reading as the sensor made it, over the square of its depth [1/m]: s / (f B).
-  float noise_per_m = 0.004F;
+  float sigma_per_z2 = 0.004F;
   float noise_left = 1.0F;  ///< share of that deviation that steps have left
 
   /// Where reduced pixel (u, v) was measured in the full image.

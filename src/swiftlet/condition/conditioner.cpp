@@ -16,12 +16,12 @@ Expected<Conditioner> Conditioner::create(const ConditionOptions& options) {
 }
 
 const ConditionedDepth& Conditioner::clean(const DepthImage& depth, const PinholeIntrinsics& lens,
-                                           double noise_per_m) {
+                                           double sigma_per_z2) {
   depth_.raw = depth.raw;  // same size: copies without allocating
   depth_.unit_m = depth.unit_m;
   depth_.lens = lens;
   depth_.ratio = 1;
-  depth_.noise_per_m = static_cast<float>(noise_per_m);
+  depth_.sigma_per_z2 = static_cast<float>(sigma_per_z2);
   depth_.noise_left = 1.0F;
   for (const auto& step : steps_) step->apply(depth_);
   return depth_;

@@ -18,10 +18,10 @@ class Conditioner {
   /// Errors: kUsage for a step that does not exist, naming those that do.
   [[nodiscard]] static Expected<Conditioner> create(const ConditionOptions& options);
 
-  /// `noise_per_m` as in ConditionedDepth. The result belongs to the conditioner and is good until
+  /// `sigma_per_z2` as in ConditionedDepth. The result belongs to the conditioner and is good until
   /// the next call. REQUIRES: the image has the size of its intrinsics.
   [[nodiscard]] const ConditionedDepth& clean(const DepthImage& depth,
-                                              const PinholeIntrinsics& lens, double noise_per_m);
+                                              const PinholeIntrinsics& lens, double sigma_per_z2);
 
  private:
   Conditioner() = default;

@@ -125,7 +125,7 @@ HWY_EXPORT(averaged_row);
 
 NoiseTolerance noise_tolerance(const ConditionedDepth& depth) {
   constexpr float kDeviations = 3.0F * 1.41421356F;
-  return {1.0F, 0.01F, kDeviations * depth.noise_per_m * depth.unit_m};
+  return {1.0F, 0.01F, kDeviations * depth.sigma_per_z2 * depth.unit_m};
 }
 
 template <class MakeRow>

@@ -13,7 +13,7 @@
 #include "swiftlet/base/registry.hpp"
 #include "swiftlet/condition/conditioned_depth.hpp"
 #include "swiftlet/frame/intrinsics.hpp"
-#include "swiftlet/integrate/image/depth_pyramid.hpp"
+#include "swiftlet/integrate/image/depth_range_pyramid.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 
@@ -33,7 +33,7 @@ struct IntegrateOptions {
 /// One conditioned frame.
 struct DepthView {
   const ConditionedDepth& depth;
-  const DepthPyramid& pyramid;          ///< of depth.raw
+  const DepthRangePyramid& pyramid;     ///< of depth.raw
   const PinholeIntrinsics& intrinsics;  ///< of the full image
   const Transform<World, Camera>& T_world_camera;
   std::uint64_t frame_number;  ///< seeds the rounding; counts frames of the map from 0

@@ -86,7 +86,7 @@ class Mapper {
   RollingMap map_;
   std::unique_ptr<FrameGate> gate_;
   Conditioner conditioner_;
-  DepthPyramid pyramid_;
+  DepthRangePyramid pyramid_;
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<ThinHits> thin_;     // null: with the thesis's rule
   std::unique_ptr<GhostDecay> decay_;  // null: never

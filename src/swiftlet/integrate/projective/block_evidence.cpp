@@ -42,12 +42,12 @@ struct FrameEvidence::Work {
   bool has_free = false;
 };
 
-FrameEvidence::FrameEvidence(const CubeView& view, const DepthPyramid& pyramid,
-                             const ReadingSummaries& summaries, const FrameInView& frame,
+FrameEvidence::FrameEvidence(const CubeView& view, const DepthRangePyramid& pyramid,
+                             const DepthMeanPyramid& means, const FrameInView& frame,
                              std::uint64_t frame_number)
     : view_(view),
       tiles_(pyramid.tiles()),
-      summaries_(summaries),
+      means_(means),
       frame_(frame),
       frame_number_(frame_number) {}
 
@@ -97,14 +97,14 @@ void FrameEvidence::look(const CubeInView& cube, Work& work) const {
   const float noise_cells = frame_.sigma_per_z2 * z_m * z_m / frame_.voxel_m;
   const float tiles_across = std::max(1.0F, kTilesAcross / (1.0F + noise_cells));
   const int shift = std::clamp(static_cast<int>(std::lround(std::log2(width_px / tiles_across))),
-                               ReadingSummaries::kFinestShift, ReadingSummaries::kCoarsestShift);
+                               DepthMeanPyramid::kFinestShift, DepthMeanPyramid::kCoarsestShift);
   const float across = width_px / static_cast<float>(1 << shift);
   const bool is_near = cube.z_near() < kNearCells * frame_.voxel_m;
   const float count =
       is_near ? float{FaceSamples::kMost}
               : std::clamp(kSamplesPerTile * across * across, kFewest, float{FaceSamples::kMost});
   CellLook look{.samples = {},
-                .tiles = summaries_.tiles(shift),
+                .tiles = means_.tiles(shift),
                 .is_inside_image = !is_near && view_.is_inside_image(cube)};
   look.samples.spread(static_cast<int>(count), cube.p_world, frame_.voxel_m, frame_.world_axis,
                       frame_number_);

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "swiftlet/integrate/image/reading_tiles.hpp"
+#include "swiftlet/integrate/image/depth_mean_pyramid.hpp"
 #include "swiftlet/integrate/projective/cell_kernels.hpp"
 #include "swiftlet/integrate/projective/cube_judge.hpp"
 #include "swiftlet/map/voxel_block.hpp"
@@ -30,8 +30,8 @@ struct BlockEvidence {
 /// cells, which look at the readings of their image.
 class FrameEvidence {
  public:
-  FrameEvidence(const CubeView& view, const DepthPyramid& pyramid,
-                const ReadingSummaries& summaries, const FrameInView& frame,
+  FrameEvidence(const CubeView& view, const DepthRangePyramid& pyramid,
+                const DepthMeanPyramid& means, const FrameInView& frame,
                 std::uint64_t frame_number);
 
   void judge(const CubeBatch& cubes, Verdicts& verdicts) const {
@@ -53,8 +53,8 @@ class FrameEvidence {
   [[nodiscard]] CellCube cells_of(const CubeInView& cube, int edge, int offset) const;
 
   const CubeView& view_;
-  PyramidTiles tiles_;
-  const ReadingSummaries& summaries_;
+  DepthRangeTiles tiles_;
+  const DepthMeanPyramid& means_;
   const FrameInView& frame_;
   std::uint64_t frame_number_;
 };

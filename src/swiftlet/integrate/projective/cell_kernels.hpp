@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "swiftlet/integrate/image/reading_kernels.hpp"
+#include "swiftlet/integrate/image/depth_mean_kernels.hpp"
 #include "swiftlet/integrate/projective/cube_view.hpp"
 #include "swiftlet/integrate/projective/evidence_table.hpp"
 #include "swiftlet/integrate/projective/face_samples.hpp"
@@ -79,7 +79,7 @@ struct CellList {
 /// How cells look at their image: the samples on their faces, and the tiles that these fall into.
 struct CellLook {
   FaceSamples samples;
-  ReadingTiles tiles;
+  DepthMeanTiles tiles;
   bool is_inside_image;  ///< all of the cells: no sample needs to ask
 };
 

@@ -68,8 +68,8 @@ struct ReadingsAndChords {
   FloatLanes length;     // of the chords [cells]
   FloatLanes per_sigma;  // 1 / the deviation of the readings, in units of their depth
 
-  HWY_INLINE ReadingsAndChords(const FrameInView& frame, const ReadingTiles& tiles, const Sample& s,
-                               const ChordsOfFace& cell, const FaceSample& place)
+  HWY_INLINE ReadingsAndChords(const FrameInView& frame, const DepthMeanTiles& tiles,
+                               const Sample& s, const ChordsOfFace& cell, const FaceSample& place)
       : readings(readings_at(tiles, s.tile)), z_out(cell.z_out(s.z, place)) {
     constexpr Floats f;
     length = hn::Mul(hn::Sub(z_out, s.z), hn::Set(f, 1.0F / frame.voxel_m));
@@ -98,8 +98,8 @@ struct ChordEvidence {
   using OfFace = ChordsOfFace;
   static constexpr bool kHolds = true;
 
-  HWY_INLINE static Said says(const FrameInView& frame, const ReadingTiles& tiles, const Sample& s,
-                              const OfFace& cell, const FaceSample& place) {
+  HWY_INLINE static Said says(const FrameInView& frame, const DepthMeanTiles& tiles,
+                              const Sample& s, const OfFace& cell, const FaceSample& place) {
     constexpr Floats f;
     const ReadingsAndChords r(frame, tiles, s, cell, place);
     const FloatLanes one = hn::Set(f, 1.0F), zero = hn::Zero(f);
@@ -133,8 +133,8 @@ struct PassedChord {
   using OfFace = ChordsOfFace;
   static constexpr bool kHolds = false;
 
-  HWY_INLINE static Said says(const FrameInView& frame, const ReadingTiles& tiles, const Sample& s,
-                              const OfFace& cell, const FaceSample& place) {
+  HWY_INLINE static Said says(const FrameInView& frame, const DepthMeanTiles& tiles,
+                              const Sample& s, const OfFace& cell, const FaceSample& place) {
     const ReadingsAndChords r(frame, tiles, s, cell, place);
     Said said;
     said.log_odds = hn::Mul(r.least_log_odds(frame), hn::Mul(r.length, r.readings.share));

@@ -79,7 +79,7 @@ HWY_INLINE IntLanes pixel_of(FloatLanes place, float size) {
 
 /// All readings of a rectangle or of a little more: it is rounded outwards to whole tiles of the
 /// level whose tiles are at most as wide as it is, and more than half as wide.
-HWY_INLINE Readings readings_of(const FrameInView& frame, const PyramidTiles& tiles,
+HWY_INLINE Readings readings_of(const FrameInView& frame, const DepthRangeTiles& tiles,
                                 const Rectangles& r) {
   constexpr Floats f;
   constexpr Ints i;
@@ -89,10 +89,10 @@ HWY_INLINE Readings readings_of(const FrameInView& frame, const PyramidTiles& ti
   const IntLanes longest = hn::Add(hn::Max(hn::Sub(u1, u0), hn::Sub(v1, v0)), hn::Set(i, 1));
   // The exponent of a float is the logarithm of a whole number.
   const IntLanes exponent = hn::ShiftRight<23>(hn::BitCast(i, hn::ConvertTo(f, longest)));
-  const IntLanes finest = hn::Set(i, 127 + DepthPyramid::kTileShift);
+  const IntLanes finest = hn::Set(i, 127 + DepthRangePyramid::kTileShift);
   const IntLanes level =
       hn::Min(hn::Max(hn::Sub(exponent, finest), hn::Zero(i)), hn::Set(i, tiles.levels - 1));
-  const IntLanes shift = hn::Add(level, hn::Set(i, DepthPyramid::kTileShift));
+  const IntLanes shift = hn::Add(level, hn::Set(i, DepthRangePyramid::kTileShift));
   const IntLanes x0 = hn::Shr(u0, shift), x1 = hn::Shr(u1, shift);
   const IntLanes y0 = hn::Shr(v0, shift), y1 = hn::Shr(v1, shift);
   const IntLanes first = hn::GatherIndex(i, tiles.first.data(), level);
@@ -108,7 +108,7 @@ HWY_INLINE Readings readings_of(const FrameInView& frame, const PyramidTiles& ti
       const IntLanes farthest = hn::BitCast(i, hn::ShiftRight<16>(hn::BitCast(n, tile)));
       all.nearest = hn::Min(all.nearest, hn::And(tile, hn::Set(i, 0xfffe)));
       all.farthest = hn::Max(all.farthest, farthest);
-      all.gaps = hn::Or(all.gaps, hn::And(tile, hn::Set(i, DepthPyramid::kHasGaps)));
+      all.gaps = hn::Or(all.gaps, hn::And(tile, hn::Set(i, DepthRangePyramid::kHasGaps)));
     }
   }
   return all;
@@ -121,7 +121,7 @@ HWY_INLINE FloatLanes depth_and_sigmas(const FrameInView& frame, IntLanes raw, f
   return hn::Add(z, hn::Mul(hn::Mul(z, z), hn::Set(f, sigmas * frame.sigma_per_z2)));
 }
 
-HWY_INLINE IntLanes verdicts_of(const FrameInView& frame, const PyramidTiles& tiles, Boxes b) {
+HWY_INLINE IntLanes verdicts_of(const FrameInView& frame, const DepthRangeTiles& tiles, Boxes b) {
   constexpr Floats f;
   constexpr Ints i;
   const auto verdict = [](Verdict v) { return hn::Set(Ints(), static_cast<std::int32_t>(v)); };
@@ -165,7 +165,7 @@ HWY_INLINE IntLanes verdicts_of(const FrameInView& frame, const PyramidTiles& ti
                         hn::IfThenElse(hn::RebindMask(i, says_something), seen, nothing));
 }
 
-void judge(const FrameInView& frame, const PyramidTiles& tiles, const CubeBatch& cubes,
+void judge(const FrameInView& frame, const DepthRangeTiles& tiles, const CubeBatch& cubes,
            Verdicts& verdicts) {
   constexpr Floats f;
   constexpr Ints i;
@@ -189,7 +189,7 @@ namespace swiftlet {
 
 HWY_EXPORT(judge);
 
-void judge_cubes(const FrameInView& frame, const PyramidTiles& tiles, const CubeBatch& cubes,
+void judge_cubes(const FrameInView& frame, const DepthRangeTiles& tiles, const CubeBatch& cubes,
                  Verdicts& verdicts) {
   HWY_DYNAMIC_DISPATCH(judge)(frame, tiles, cubes, verdicts);
 }

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "swiftlet/integrate/image/depth_pyramid.hpp"
+#include "swiftlet/integrate/image/depth_range_pyramid.hpp"
 #include "swiftlet/integrate/projective/cell_kernels.hpp"
 
 namespace swiftlet {
@@ -41,7 +41,7 @@ using Verdicts = std::array<Verdict, CubeBatch::kMost>;
 
 /// Judges each cube by the readings of the rectangle that its bounding box covers in the image.
 /// The same verdicts on all instruction sets.
-void judge_cubes(const FrameInView& frame, const PyramidTiles& tiles, const CubeBatch& cubes,
+void judge_cubes(const FrameInView& frame, const DepthRangeTiles& tiles, const CubeBatch& cubes,
                  Verdicts& verdicts);
 
 }  // namespace swiftlet

@@ -64,8 +64,8 @@ double centre_at(double y, double half) {
 
 double depth_of_row(int row) {
   const int code = (row << EvidenceTable::kRowShift) + (1 << (EvidenceTable::kRowShift - 1));
-  return 1.0 / double{std::bit_cast<float>((code + ReadingTiles::kFirstCode)
-                                           << ReadingTiles::kCodeShift)};
+  return 1.0 / double{std::bit_cast<float>((code + DepthMeanTiles::kFirstCode)
+                                           << DepthMeanTiles::kCodeShift)};
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "swiftlet/integrate/image/reading_kernels.hpp"
+#include "swiftlet/integrate/image/depth_mean_kernels.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 
 namespace swiftlet {
@@ -35,7 +35,7 @@ class EvidenceTable {
   static constexpr auto kReachSigma = static_cast<float>(InverseSensorModel::kBandSigma);
   /// The row of a depth is that of its code: 16 rows for twice the depth.
   static constexpr int kRowShift = 8;
-  static constexpr int kRows = ReadingTiles::kCodes >> kRowShift;
+  static constexpr int kRows = DepthMeanTiles::kCodes >> kRowShift;
 
   /// Ready for readings up to a depth [m]. Allocates on the first call; fills rows when a frame
   /// sees farther than any before, and all again when the sensor has changed.

@@ -79,13 +79,13 @@ class ProjectiveIntegrator final : public Integrator {
     if (sensor.shape() == CellShape::kSlice)
       table_.prepare(sensor, cubes.voxel_m(), unit_m * static_cast<float>(view.pyramid.farthest()));
     const FrameInView in_view = look(cubes, sensor, table_, unit_m, steps_per_log_odds_);
-    summaries_.build(view.depth.raw,
-                     {.unit_m = unit_m,
-                      .sigma_per_z2 = in_view.sigma_per_z2,
-                      .most_scatter_m = kMostScatter * cubes.voxel_m(),
-                      .frame_number = view.frame_number},
-                     team_);
-    const FrameEvidence frame(cubes, view.pyramid, summaries_, in_view, view.frame_number);
+    means_.build(view.depth.raw,
+                 {.unit_m = unit_m,
+                  .sigma_per_z2 = in_view.sigma_per_z2,
+                  .most_scatter_m = kMostScatter * cubes.voxel_m(),
+                  .frame_number = view.frame_number},
+                 team_);
+    const FrameEvidence frame(cubes, view.pyramid, means_, in_view, view.frame_number);
 
     cubes_.find(map.window(), cubes, frame);
     std::atomic<std::size_t> next{0};
@@ -107,7 +107,7 @@ class ProjectiveIntegrator final : public Integrator {
   }
 
   [[nodiscard]] std::size_t memory_bytes() const override {
-    std::size_t bytes = table_.memory_bytes() + summaries_.memory_bytes() + cubes_.memory_bytes();
+    std::size_t bytes = table_.memory_bytes() + means_.memory_bytes() + cubes_.memory_bytes();
     for (const Worker& w : workers_) bytes += sizeof w + w.updates.capacity() * sizeof(BlockUpdate);
     return bytes;
   }
@@ -155,7 +155,7 @@ class ProjectiveIntegrator final : public Integrator {
   std::chrono::duration<double, std::milli> limit_;
   WorkerTeam team_;
   EvidenceTable table_;
-  ReadingSummaries summaries_;
+  DepthMeanPyramid means_;
   ViewCubes cubes_;
   std::vector<Worker> workers_;
 };

@@ -63,7 +63,7 @@ struct Face {
 
   [[nodiscard]] HWY_INLINE bool is_flat() const {
     constexpr Floats f;
-    return hn::AllTrue(f, hn::Lt(hn::Sub(most, least), hn::Set(f, kFlat * ReadingTiles::kAll)));
+    return hn::AllTrue(f, hn::Lt(hn::Sub(most, least), hn::Set(f, kFlat * DepthMeanTiles::kAll)));
   }
 };
 
@@ -97,7 +97,8 @@ HWY_INLINE void add_face(const FrameInView& frame, const CellLook& look, const C
     }
     count = places.size();
   }
-  const FloatLanes per_count = hn::Set(f, 1.0F / (ReadingTiles::kAll * static_cast<float>(count)));
+  const FloatLanes per_count =
+      hn::Set(f, 1.0F / (DepthMeanTiles::kAll * static_cast<float>(count)));
   for (std::size_t v = 0; v < kVectors; ++v) {
     const FloatLanes half = hn::Set(f, 0.5F * frame.voxel_m);
     const FloatLanes distance = hn::Max(hn::Zero(f), hn::Sub(hn::Abs(cells[v].world[axis]), half));

@@ -37,7 +37,7 @@ HWY_INLINE IntLanes whole_number(FloatLanes x) {
 
 /// With IsInside, all of the cells is known to lie inside the image.
 template <bool IsInside>
-HWY_INLINE Sample sample_at(const FrameInView& frame, const ReadingTiles& tiles,
+HWY_INLINE Sample sample_at(const FrameInView& frame, const DepthMeanTiles& tiles,
                             const FloatLanes* face, const Float3& to) {
   constexpr Floats f;
   constexpr Ints i;
@@ -91,18 +91,18 @@ struct Readings {
   HWY_INLINE Readings() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
 };
 
-HWY_INLINE Readings readings_at(const ReadingTiles& tiles, IntLanes tile) {
+HWY_INLINE Readings readings_at(const DepthMeanTiles& tiles, IntLanes tile) {
   constexpr Floats f;
   constexpr Ints i;
   constexpr hn::RebindToUnsigned<Ints> n;
   const IntLanes word = hn::GatherIndex(i, tiles.words, tile);
   Readings r;
-  r.code = hn::And(word, hn::Set(i, ReadingTiles::kCodes - 1));
-  r.per_z = hn::BitCast(f, hn::ShiftLeft<ReadingTiles::kCodeShift>(
-                               hn::Add(r.code, hn::Set(i, ReadingTiles::kFirstCode))));
+  r.code = hn::And(word, hn::Set(i, DepthMeanTiles::kCodes - 1));
+  r.per_z = hn::BitCast(f, hn::ShiftLeft<DepthMeanTiles::kCodeShift>(
+                               hn::Add(r.code, hn::Set(i, DepthMeanTiles::kFirstCode))));
   const IntLanes agreement = hn::BitCast(i, hn::ShiftRight<24>(hn::BitCast(n, word)));
   const FloatLanes root =
-      hn::Mul(hn::ConvertTo(f, agreement), hn::Set(f, 1.0F / ReadingTiles::kNarrowest));
+      hn::Mul(hn::ConvertTo(f, agreement), hn::Set(f, 1.0F / DepthMeanTiles::kNarrowest));
   r.narrow = hn::Mul(root, root);
   r.share = share_of(word);
   return r;
@@ -150,8 +150,8 @@ struct SliceEvidence {
   using OfFace = CentreOfFace;
   static constexpr bool kHolds = false;
 
-  HWY_INLINE static Said says(const FrameInView& frame, const ReadingTiles& tiles, const Sample& s,
-                              const OfFace& cell, const FaceSample&) {
+  HWY_INLINE static Said says(const FrameInView& frame, const DepthMeanTiles& tiles,
+                              const Sample& s, const OfFace& cell, const FaceSample&) {
     constexpr Floats f;
     constexpr Ints i;
     const Readings readings = readings_at(tiles, s.tile);
@@ -194,8 +194,8 @@ struct PassedSlice {
   using OfFace = CentreOfFace;
   static constexpr bool kHolds = false;
 
-  HWY_INLINE static Said says(const FrameInView& frame, const ReadingTiles& tiles, const Sample& s,
-                              const OfFace&, const FaceSample&) {
+  HWY_INLINE static Said says(const FrameInView& frame, const DepthMeanTiles& tiles,
+                              const Sample& s, const OfFace&, const FaceSample&) {
     constexpr Floats f;
     const FloatLanes share = share_of(hn::GatherIndex(Ints(), tiles.words, s.tile));
     Said said;

@@ -73,18 +73,18 @@ GhostDecay::Sight GhostDecay::look(const CubeView& view, const CubeInView& cube,
 
   const int u0 = pixel(left, view.width()), u1 = pixel(right, view.width());
   const int v0 = pixel(top, view.height()), v1 = pixel(bottom, view.height());
-  const PyramidTiles tiles = pyramid_->tiles();
+  const DepthRangeTiles tiles = pyramid_->tiles();
   const auto longest = static_cast<unsigned>(std::max(u1 - u0, v1 - v0) + 1);
   const int half_width = static_cast<int>(std::bit_width(longest)) - 2;  // its logarithm
-  const int level = std::clamp(half_width - DepthPyramid::kTileShift, 0, tiles.levels - 1);
-  const int shift = level + DepthPyramid::kTileShift;
+  const int level = std::clamp(half_width - DepthRangePyramid::kTileShift, 0, tiles.levels - 1);
+  const int shift = level + DepthRangePyramid::kTileShift;
   const auto at = static_cast<std::size_t>(level);
   Sight sight{.is_in_view = true};
   for (int y = v0 >> shift; y <= v1 >> shift; ++y) {
     const std::int32_t* row = tiles.words + tiles.first[at] + std::ptrdiff_t{y} * tiles.width[at];
     for (int x = u0 >> shift; x <= u1 >> shift; ++x) {
       const auto tile = static_cast<std::uint32_t>(row[x]);
-      sight.has_gaps = sight.has_gaps || (tile & DepthPyramid::kHasGaps) != 0;
+      sight.has_gaps = sight.has_gaps || (tile & DepthRangePyramid::kHasGaps) != 0;
       if (tile >> 16U == 0) continue;
       sight.nearest_m = std::min(sight.nearest_m, depth_m(tile & 0xfffeU));
       if (sight.nearest_m < behind_m) return sight;

@@ -68,7 +68,7 @@ class GhostDecay {
   double decay_s_;
   std::array<Clock, 256> clocks_{};  // by camera
   // Of this frame.
-  const DepthPyramid* pyramid_ = nullptr;
+  const DepthRangePyramid* pyramid_ = nullptr;
   const Image<std::uint16_t>* raw_ = nullptr;
   float unit_m_ = 0.0F, sigma_per_z2_ = 0.0F, max_range_m_ = 0.0F;
 };

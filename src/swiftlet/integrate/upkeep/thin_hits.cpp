@@ -11,7 +11,7 @@ namespace {
 
 /// The level of the pyramid whose tiles are asked before their pixels.
 constexpr int kLevel = 1;
-constexpr int kTile = DepthPyramid::kTile << kLevel;
+constexpr int kTile = DepthRangePyramid::kTile << kLevel;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void ThinHits::add(const VoxelIndex& cell, const RollingMap& map) {
   ++slot.hits;
 }
 
-bool ThinHits::may_have_ridge(const PyramidTiles& tiles, int tile_u, int tile_v) const {
+bool ThinHits::may_have_ridge(const DepthRangeTiles& tiles, int tile_u, int tile_v) const {
   const std::int32_t* words = tiles.words + tiles.first[kLevel];
   const int width = tiles.width[kLevel];
   const int height = (tiles.first[kLevel + 1] - tiles.first[kLevel]) / width;
@@ -61,8 +61,8 @@ void ThinHits::collect(const DepthView& view, const RollingMap& map) {
   const auto fx = static_cast<float>(view.intrinsics.fx()) / static_cast<float>(depth.ratio);
   limits_ = {.half_cell_px = 0.5F * voxel_m * fx / unit_m,
              .least_behind = kBehindCells * voxel_m / unit_m,
-             .behind_per_square = kBehindSigma * depth.noise_per_m * depth.noise_left * unit_m};
-  const PyramidTiles tiles = view.pyramid.tiles();
+             .behind_per_square = kBehindSigma * depth.sigma_per_z2 * depth.noise_left * unit_m};
+  const DepthRangeTiles tiles = view.pyramid.tiles();
   if (tiles.levels <= kLevel + 1) return;  // an image of a few pixels
   image_.take(depth.raw);
   for (int v = 0; v * kTile < depth.raw.height(); ++v) {
@@ -72,7 +72,7 @@ void ThinHits::collect(const DepthView& view, const RollingMap& map) {
   }
 }
 
-void ThinHits::collect_tile(const DepthView& view, const PyramidTiles& tiles, int tile_u,
+void ThinHits::collect_tile(const DepthView& view, const DepthRangeTiles& tiles, int tile_u,
                             int tile_v, const RollingMap& map) {
   static_assert(RidgeTile::kEdge == kTile);
   const int tile = tiles.first[kLevel] + tile_v * tiles.width[kLevel] + tile_u;

@@ -53,8 +53,8 @@ class ThinHits {
     QuantizedLogOdds before = kUnknownCell;
   };
   /// A square of pixels; false: there is no ridge in it.
-  [[nodiscard]] bool may_have_ridge(const PyramidTiles& tiles, int tile_u, int tile_v) const;
-  void collect_tile(const DepthView& view, const PyramidTiles& tiles, int tile_u, int tile_v,
+  [[nodiscard]] bool may_have_ridge(const DepthRangeTiles& tiles, int tile_u, int tile_v) const;
+  void collect_tile(const DepthView& view, const DepthRangeTiles& tiles, int tile_u, int tile_v,
                     const RollingMap& map);
   void add_reading(const DepthView& view, int u, int v, const RollingMap& map);
   void add(const VoxelIndex& cell, const RollingMap& map);

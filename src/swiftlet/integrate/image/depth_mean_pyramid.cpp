@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/image/reading_tiles.hpp"
+#include "swiftlet/integrate/image/depth_mean_pyramid.hpp"
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ int tiles_of(int pixels, int shift) { return ((pixels - 1) >> shift) + 1; }
 
 }  // namespace
 
-void ReadingSummaries::lay_out(int width, int height, int threads) {
+void DepthMeanPyramid::lay_out(int width, int height, int threads) {
   width_ = width;
   height_ = height;
   scratch_.resize(static_cast<std::size_t>(threads));
@@ -38,7 +38,7 @@ void ReadingSummaries::lay_out(int width, int height, int threads) {
   below_.assign(static_cast<std::size_t>(width), 0);
 }
 
-void ReadingSummaries::build(const Image<std::uint16_t>& raw, const Options& options,
+void DepthMeanPyramid::build(const Image<std::uint16_t>& raw, const Options& options,
                              WorkerTeam& team) {
   if (raw.width() != width_ || raw.height() != height_)
     lay_out(raw.width(), raw.height(), team.threads());
@@ -49,23 +49,23 @@ void ReadingSummaries::build(const Image<std::uint16_t>& raw, const Options& opt
   });
 }
 
-void ReadingSummaries::make_row(const Image<std::uint16_t>& raw, int shift, int y,
+void DepthMeanPyramid::make_row(const Image<std::uint16_t>& raw, int shift, int y,
                                 const Options& options, Scratch& scratch) {
   const auto place = static_cast<std::size_t>(shift - kFinestShift);
-  const SummaryRow row = row_of(shift, y, options, scratch[place]);
+  const DepthMeanRow row = row_of(shift, y, options, scratch[place]);
   if (y >= levels_[place].rows) {
     std::fill_n(row.count, levels_[place].stride, 0.0F);
   } else if (shift == kFinestShift) {
     const std::uint16_t* lower = 2 * y + 1 < height_ ? raw.row(2 * y + 1).data() : below_.data();
-    summarise_pixels(raw.row(2 * y).data(), lower, row);
+    average_pixels(raw.row(2 * y).data(), lower, row);
   } else {
     make_row(raw, shift - 1, 2 * y, options, scratch);
     make_row(raw, shift - 1, 2 * y + 1, options, scratch);
-    merge_summaries(finer(shift - 1, 2 * y, scratch), finer(shift - 1, 2 * y + 1, scratch), row);
+    merge_means(finer(shift - 1, 2 * y, scratch), finer(shift - 1, 2 * y + 1, scratch), row);
   }
 }
 
-SummaryRow ReadingSummaries::row_of(int shift, int y, const Options& options, RowPair& rows) {
+DepthMeanRow DepthMeanPyramid::row_of(int shift, int y, const Options& options, RowPair& rows) {
   Level& to = levels_[static_cast<std::size_t>(shift - kFinestShift)];
   const auto stride = static_cast<std::size_t>(to.stride);
   const std::size_t first = static_cast<std::size_t>(y) % 2 * stride;
@@ -84,7 +84,7 @@ SummaryRow ReadingSummaries::row_of(int shift, int y, const Options& options, Ro
           .words = &to.words[static_cast<std::size_t>(y) * stride]};
 }
 
-FinerRow ReadingSummaries::finer(int shift, int y, const Scratch& scratch) const {
+FinerMeanRow DepthMeanPyramid::finer(int shift, int y, const Scratch& scratch) const {
   const auto place = static_cast<std::size_t>(shift - kFinestShift);
   const auto stride = static_cast<std::size_t>(levels_[place].stride);
   const std::size_t first = static_cast<std::size_t>(y) % 2 * stride;
@@ -93,13 +93,13 @@ FinerRow ReadingSummaries::finer(int shift, int y, const Scratch& scratch) const
           &levels_[place].words[static_cast<std::size_t>(y) * stride]};
 }
 
-ReadingTiles ReadingSummaries::tiles(int shift) const {
+DepthMeanTiles DepthMeanPyramid::tiles(int shift) const {
   const int level = std::clamp(shift, kFinestShift, kCoarsestShift);
   const Level& of = levels_[static_cast<std::size_t>(level - kFinestShift)];
   return {of.words.data(), of.stride, level};
 }
 
-std::size_t ReadingSummaries::memory_bytes() const {
+std::size_t DepthMeanPyramid::memory_bytes() const {
   std::size_t bytes = below_.capacity() * sizeof(std::uint16_t);
   for (const Level& level : levels_) bytes += level.words.capacity() * sizeof(std::int32_t);
   for (const Scratch& scratch : scratch_) {

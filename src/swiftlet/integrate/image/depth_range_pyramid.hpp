@@ -12,8 +12,8 @@
 
 namespace swiftlet {
 
-/// What the kernels see of a DepthPyramid.
-struct PyramidTiles {
+/// What the kernels see of a DepthRangePyramid.
+struct DepthRangeTiles {
   static constexpr std::size_t kMostLevels = 16;
 
   const std::int32_t* words;
@@ -26,7 +26,7 @@ struct PyramidTiles {
 ///
 /// A tile is one word: its farthest reading, 0 if it has none, in the upper 16 bits; its nearest in
 /// the lower ones, rounded down to an even number, because the last bit is kHasGaps.
-class DepthPyramid {
+class DepthRangePyramid {
  public:
   static constexpr int kTileShift = 2;  ///< tiles of level 0 are 4 pixels wide
   static constexpr int kTile = 1 << kTileShift;
@@ -43,7 +43,7 @@ class DepthPyramid {
   /// Allocates only while images grow.
   void build(const Image<std::uint16_t>& raw);
 
-  [[nodiscard]] PyramidTiles tiles() const;
+  [[nodiscard]] DepthRangeTiles tiles() const;
   /// Of the whole image; 0 if there is none.
   [[nodiscard]] std::uint16_t farthest() const {
     return static_cast<std::uint16_t>(static_cast<std::uint32_t>(words_.back()) >> 16U);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/image/depth_pyramid.hpp"
+#include "swiftlet/integrate/image/depth_range_pyramid.hpp"
 
 #include <algorithm>
 
-#include "swiftlet/integrate/image/depth_tiles.hpp"
+#include "swiftlet/integrate/image/depth_range_kernels.hpp"
 
 namespace swiftlet {
 namespace {
 
 /// Two tiles as one.
 std::int32_t joined(std::int32_t tile_a, std::int32_t tile_b) {
-  constexpr std::uint32_t kGaps = DepthPyramid::kHasGaps, kNearest = 0xffffU & ~kGaps;
+  constexpr std::uint32_t kGaps = DepthRangePyramid::kHasGaps, kNearest = 0xffffU & ~kGaps;
   const auto a = static_cast<std::uint32_t>(tile_a), b = static_cast<std::uint32_t>(tile_b);
   const std::uint32_t farthest = std::max(a, b) & 0xffff'0000U;
   return static_cast<std::int32_t>(farthest | std::min(a & kNearest, b & kNearest) |
@@ -21,7 +21,7 @@ std::int32_t joined(std::int32_t tile_a, std::int32_t tile_b) {
 
 }  // namespace
 
-void DepthPyramid::lay_out(int width, int height) {
+void DepthRangePyramid::lay_out(int width, int height) {
   width_ = width;
   height_ = height;
   levels_.clear();
@@ -38,16 +38,16 @@ void DepthPyramid::lay_out(int width, int height) {
   words_.resize(tiles);
 }
 
-void DepthPyramid::build(const Image<std::uint16_t>& raw) {
+void DepthRangePyramid::build(const Image<std::uint16_t>& raw) {
   if (raw.width() != width_ || raw.height() != height_) lay_out(raw.width(), raw.height());
   const Level& finest = levels_.front();
   readings_ = 0;
   for (std::size_t y = 0; y < finest.height; ++y)
-    readings_ += summarise_tile_row(raw, static_cast<int>(y), &words_[y * finest.width]);
+    readings_ += find_tile_row_ranges(raw, static_cast<int>(y), &words_[y * finest.width]);
   for (std::size_t i = 1; i < levels_.size(); ++i) merge(levels_[i - 1], levels_[i]);
 }
 
-void DepthPyramid::merge(const Level& from, const Level& to) {
+void DepthRangePyramid::merge(const Level& from, const Level& to) {
   for (std::size_t y = 0; y < to.height; ++y) {
     const std::int32_t* upper = &words_[from.first + 2 * y * from.width];
     const std::int32_t* lower = 2 * y + 1 < from.height ? upper + from.width : upper;
@@ -60,8 +60,8 @@ void DepthPyramid::merge(const Level& from, const Level& to) {
   }
 }
 
-PyramidTiles DepthPyramid::tiles() const {
-  PyramidTiles tiles{words_.data(), static_cast<int>(levels_.size()), {}, {}};
+DepthRangeTiles DepthRangePyramid::tiles() const {
+  DepthRangeTiles tiles{words_.data(), static_cast<int>(levels_.size()), {}, {}};
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     tiles.first[i] = static_cast<std::int32_t>(levels_[i].first);
     tiles.width[i] = static_cast<std::int32_t>(levels_[i].width);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/image/reading_kernels.hpp"
+#include "swiftlet/integrate/image/depth_mean_kernels.hpp"
 
 #include <algorithm>
 
 // Highway compiles this file once for every instruction set: SSE2 to AVX-512, NEON.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "swiftlet/integrate/image/reading_kernels.cpp"
+#define HWY_TARGET_INCLUDE "swiftlet/integrate/image/depth_mean_kernels.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
@@ -43,30 +43,30 @@ HWY_INLINE FloatLanes draw(std::uint32_t seed, int x) {
 }
 
 /// What readings say together, as the low and the high part of a word.
-struct Voice {
+struct EncodedDepth {
   IntLanes code, narrow;
 
-  HWY_INLINE Voice() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
+  HWY_INLINE EncodedDepth() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
 };
 
-HWY_INLINE Voice voice_of(FloatLanes mean, FloatLanes narrow) {
+HWY_INLINE EncodedDepth encode(FloatLanes mean, FloatLanes narrow) {
   constexpr Floats f;
   constexpr Ints i;
   const FloatLanes least = hn::Set(f, 1.0F / 64.0F), most = hn::Set(f, 1024.0F);
   const FloatLanes inverse = hn::Div(hn::Set(f, 1.0F), hn::Min(hn::Max(mean, least), most));
-  const IntLanes bits = hn::Add(hn::BitCast(i, inverse), hn::Set(i, ReadingTiles::kHalfCode));
-  const IntLanes code =
-      hn::Sub(hn::ShiftRight<ReadingTiles::kCodeShift>(bits), hn::Set(i, ReadingTiles::kFirstCode));
-  Voice voice;
-  voice.code = hn::Min(code, hn::Set(i, ReadingTiles::kCodes - 1));
-  voice.narrow = hn::NearestInt(hn::Mul(narrow, hn::Set(f, ReadingTiles::kNarrowest)));
-  return voice;
+  const IntLanes bits = hn::Add(hn::BitCast(i, inverse), hn::Set(i, DepthMeanTiles::kHalfCode));
+  const IntLanes code = hn::Sub(hn::ShiftRight<DepthMeanTiles::kCodeShift>(bits),
+                                hn::Set(i, DepthMeanTiles::kFirstCode));
+  EncodedDepth encoded;
+  encoded.code = hn::Min(code, hn::Set(i, DepthMeanTiles::kCodes - 1));
+  encoded.narrow = hn::NearestInt(hn::Mul(narrow, hn::Set(f, DepthMeanTiles::kNarrowest)));
+  return encoded;
 }
 
-/// Writes one vector of tiles. `part_says(k)` is the voice of part k.
-template <class PartSays>
-HWY_INLINE void finish(const Parts& p, const PartSays& part_says, std::ptrdiff_t x,
-                       const SummaryRow& row) {
+/// Writes one vector of tiles. `part_of(k)` is the encoded of part k.
+template <class PartOf>
+HWY_INLINE void finish(const Parts& p, const PartOf& part_of, std::ptrdiff_t x,
+                       const DepthMeanRow& row) {
   constexpr Floats f;
   constexpr Ints i;
   const FloatLanes one = hn::Set(f, 1.0F);
@@ -89,23 +89,23 @@ HWY_INLINE void finish(const Parts& p, const PartSays& part_says, std::ptrdiff_t
   const FloatLanes sigma = hn::Mul(hn::Mul(mean, mean), hn::Set(f, row.sigma_per_z2));
   const FloatLanes sigma2 = hn::Mul(sigma, sigma);
   const FloatLanes deviation2 = hn::Max(hn::Add(sigma2, variance), hn::Set(f, 1e-12F));
-  Voice voice = voice_of(mean, hn::Sqrt(hn::Sqrt(hn::Div(sigma2, deviation2))));
+  EncodedDepth encoded = encode(mean, hn::Sqrt(hn::Sqrt(hn::Div(sigma2, deviation2))));
   const FloatLanes most = hn::Max(hn::Mul(sigma2, hn::Set(f, kNoiseScatter * kNoiseScatter)),
                                   hn::Set(f, row.most_scatter_m * row.most_scatter_m));
   const auto is_edge = hn::Gt(variance, most);
   if (!hn::AllFalse(f, is_edge)) {
     FloatLanes left = hn::Mul(draw(row.seed, static_cast<int>(x)), count);
-    Voice drawn = part_says(0);
+    EncodedDepth drawn = part_of(0);
     for (int k = 1; k < 4; ++k) {
       left = hn::Sub(left, p.count[k - 1]);
       const auto is_later =
           hn::RebindMask(i, hn::And(hn::Ge(left, hn::Zero(f)), hn::Gt(p.count[k], hn::Zero(f))));
-      const Voice later = part_says(k);
+      const EncodedDepth later = part_of(k);
       drawn.code = hn::IfThenElse(is_later, later.code, drawn.code);
       drawn.narrow = hn::IfThenElse(is_later, later.narrow, drawn.narrow);
     }
-    voice.code = hn::IfThenElse(hn::RebindMask(i, is_edge), drawn.code, voice.code);
-    voice.narrow = hn::IfThenElse(hn::RebindMask(i, is_edge), drawn.narrow, voice.narrow);
+    encoded.code = hn::IfThenElse(hn::RebindMask(i, is_edge), drawn.code, encoded.code);
+    encoded.narrow = hn::IfThenElse(hn::RebindMask(i, is_edge), drawn.narrow, encoded.narrow);
   }
 
   // Tiles at the right edge have fewer columns in the image.
@@ -115,15 +115,15 @@ HWY_INLINE void finish(const Parts& p, const PartSays& part_says, std::ptrdiff_t
       hn::Min(hn::Max(hn::Sub(hn::Set(f, static_cast<float>(row.image_width)), first), one),
               hn::Set(f, width));
   const FloatLanes pixels = hn::Mul(columns, hn::Set(f, static_cast<float>(row.pixel_rows)));
-  const FloatLanes share = hn::Div(hn::Mul(count, hn::Set(f, ReadingTiles::kAll)), pixels);
+  const FloatLanes share = hn::Div(hn::Mul(count, hn::Set(f, DepthMeanTiles::kAll)), pixels);
   const auto high =
-      hn::Or(hn::ShiftLeft<16>(hn::NearestInt(share)), hn::ShiftLeft<24>(voice.narrow));
-  hn::StoreU(hn::Or(voice.code, high), i, row.words + x);
+      hn::Or(hn::ShiftLeft<16>(hn::NearestInt(share)), hn::ShiftLeft<24>(encoded.narrow));
+  hn::StoreU(hn::Or(encoded.code, high), i, row.words + x);
 }
 
 /// Tiles from column `x` of the two rows of pixels that begin at `upper` and `lower`.
 HWY_INLINE void tiles_of_pixels(const std::uint16_t* upper, const std::uint16_t* lower,
-                                std::ptrdiff_t x, const SummaryRow& row) {
+                                std::ptrdiff_t x, const DepthMeanRow& row) {
   constexpr Floats f;
   constexpr Ints i;
   constexpr Raws r;
@@ -138,10 +138,10 @@ HWY_INLINE void tiles_of_pixels(const std::uint16_t* upper, const std::uint16_t*
     parts.variance[k] = hn::Zero(f);
   }
   finish(
-      parts, [&](int k) { return voice_of(parts.mean[k], one); }, x, row);
+      parts, [&](int k) { return encode(parts.mean[k], one); }, x, row);
 }
 
-void pixels(const std::uint16_t* upper, const std::uint16_t* lower, const SummaryRow& row) {
+void pixels(const std::uint16_t* upper, const std::uint16_t* lower, const DepthMeanRow& row) {
   const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(Floats()));
   std::ptrdiff_t x = 0;
   for (; 2 * (x + lanes) <= row.image_width; x += lanes)
@@ -154,16 +154,16 @@ void pixels(const std::uint16_t* upper, const std::uint16_t* lower, const Summar
   tiles_of_pixels(ends[0], ends[1], x, row);
 }
 
-HWY_INLINE Voice voice_in(IntLanes word) {
+HWY_INLINE EncodedDepth encoded_in(IntLanes word) {
   constexpr Ints i;
   constexpr hn::RebindToUnsigned<Ints> n;
-  Voice voice;
-  voice.code = hn::And(word, hn::Set(i, ReadingTiles::kCodes - 1));
-  voice.narrow = hn::BitCast(i, hn::ShiftRight<24>(hn::BitCast(n, word)));
-  return voice;
+  EncodedDepth encoded;
+  encoded.code = hn::And(word, hn::Set(i, DepthMeanTiles::kCodes - 1));
+  encoded.narrow = hn::BitCast(i, hn::ShiftRight<24>(hn::BitCast(n, word)));
+  return encoded;
 }
 
-void merge(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row) {
+void merge(const FinerMeanRow& upper, const FinerMeanRow& lower, const DepthMeanRow& row) {
   constexpr Floats f;
   constexpr Ints i;
   for (std::ptrdiff_t x = 0; x < row.tiles; x += static_cast<std::ptrdiff_t>(hn::Lanes(f))) {
@@ -178,7 +178,7 @@ void merge(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row) 
     hn::LoadInterleaved2(i, upper.words + 2 * x, words[0], words[1]);
     hn::LoadInterleaved2(i, lower.words + 2 * x, words[2], words[3]);
     finish(
-        parts, [&](int k) { return voice_in(words[k]); }, x, row);
+        parts, [&](int k) { return encoded_in(words[k]); }, x, row);
   }
 }
 
@@ -192,12 +192,12 @@ namespace swiftlet {
 HWY_EXPORT(pixels);
 HWY_EXPORT(merge);
 
-void summarise_pixels(const std::uint16_t* upper, const std::uint16_t* lower,
-                      const SummaryRow& row) {
+void average_pixels(const std::uint16_t* upper, const std::uint16_t* lower,
+                    const DepthMeanRow& row) {
   HWY_DYNAMIC_DISPATCH(pixels)(upper, lower, row);
 }
 
-void merge_summaries(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row) {
+void merge_means(const FinerMeanRow& upper, const FinerMeanRow& lower, const DepthMeanRow& row) {
   HWY_DYNAMIC_DISPATCH(merge)(upper, lower, row);
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/image/depth_tiles.hpp"
+#include "swiftlet/integrate/image/depth_range_kernels.hpp"
 
 #include <algorithm>
 
 // Highway compiles this file once for every instruction set: SSE2 to AVX-512, NEON.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "swiftlet/integrate/image/depth_tiles.cpp"
+#define HWY_TARGET_INCLUDE "swiftlet/integrate/image/depth_range_kernels.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
@@ -19,7 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Raws = hn::CappedTag<std::uint16_t, 32>;
 using RawLanes = hn::Vec<Raws>;
 
-constexpr int kTile = DepthPyramid::kTile;
+constexpr int kTile = DepthRangePyramid::kTile;
 
 /// Running summary of pixels. A missing reading is 0: one less wraps round to the largest value, so
 /// that it never wins as the nearest.
@@ -51,7 +51,7 @@ HWY_INLINE std::size_t add_tiles(const std::uint16_t* const rows[kTile], int u,
   hn::Store(sum.missing, r, missing);
   std::size_t readings = 0;
   for (std::size_t i = 0; i < hn::Lanes(r); ++i) {
-    tiles[i] = DepthPyramid::word_of(nearest[i], farthest[i], missing[i] != 0);
+    tiles[i] = DepthRangePyramid::word_of(nearest[i], farthest[i], missing[i] != 0);
     readings += static_cast<std::size_t>(kTile * kTile - missing[i]);
   }
   return readings;
@@ -78,8 +78,8 @@ HWY_EXPORT(tile_row);
 HWY_EXPORT(lanes);
 
 /// Tiles that the image's edge cuts, and those that fill no vector.
-std::int32_t summarise_tile(const Image<std::uint16_t>& raw, int x, int y, std::size_t& readings) {
-  constexpr int kTile = DepthPyramid::kTile;
+std::int32_t find_tile_range(const Image<std::uint16_t>& raw, int x, int y, std::size_t& readings) {
+  constexpr int kTile = DepthRangePyramid::kTile;
   const int u_end = std::min((x + 1) * kTile, raw.width());
   const int v_end = std::min((y + 1) * kTile, raw.height());
   std::uint16_t nearest = 0, farthest = 0;
@@ -94,14 +94,14 @@ std::int32_t summarise_tile(const Image<std::uint16_t>& raw, int x, int y, std::
       farthest = std::max(farthest, d);
     }
   }
-  return DepthPyramid::word_of(nearest, farthest, has_gaps);
+  return DepthRangePyramid::word_of(nearest, farthest, has_gaps);
 }
 
 }  // namespace
 
-std::size_t summarise_tile_row(const Image<std::uint16_t>& raw, int tile_row_index,
-                               std::int32_t* tiles) {
-  constexpr int kTile = DepthPyramid::kTile;
+std::size_t find_tile_row_ranges(const Image<std::uint16_t>& raw, int tile_row_index,
+                                 std::int32_t* tiles) {
+  constexpr int kTile = DepthRangePyramid::kTile;
   const int all = (raw.width() + kTile - 1) / kTile, whole = raw.width() / kTile;
   std::size_t readings = 0;
   int done = 0;
@@ -112,7 +112,7 @@ std::size_t summarise_tile_row(const Image<std::uint16_t>& raw, int tile_row_ind
     done = whole / step * step;
     readings += HWY_DYNAMIC_DISPATCH(tile_row)(rows, done, tiles);
   }
-  for (int x = done; x < all; ++x) tiles[x] = summarise_tile(raw, x, tile_row_index, readings);
+  for (int x = done; x < all; ++x) tiles[x] = find_tile_range(raw, x, tile_row_index, readings);
   return readings;
 }
 

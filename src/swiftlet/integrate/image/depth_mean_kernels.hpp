@@ -16,7 +16,7 @@ namespace swiftlet {
 ///    8 bits  how narrowly they agree: kNarrowest * sqrt(sigma / deviation), where sigma is that of
 ///            one reading and the deviation that of where the tile's readings put the surface,
 ///            their own and among each other
-struct ReadingTiles {
+struct DepthMeanTiles {
   const std::int32_t* words;
   std::int32_t stride;  ///< tiles a row
   std::int32_t shift;   ///< a tile is 2^shift pixels wide
@@ -34,28 +34,28 @@ struct ReadingTiles {
 /// The code of a depth [m]: of its inverse, within what codes can say.
 [[nodiscard]] inline int depth_code(float depth_m) {
   const auto bits = std::bit_cast<std::int32_t>(1.0F / depth_m);
-  return std::clamp(
-      ((bits + ReadingTiles::kHalfCode) >> ReadingTiles::kCodeShift) - ReadingTiles::kFirstCode, 0,
-      ReadingTiles::kCodes - 1);
+  return std::clamp(((bits + DepthMeanTiles::kHalfCode) >> DepthMeanTiles::kCodeShift) -
+                        DepthMeanTiles::kFirstCode,
+                    0, DepthMeanTiles::kCodes - 1);
 }
 
 /// One row of tiles to be summarised, and where to put it. Every array has room for whole vectors.
-struct SummaryRow {
+struct DepthMeanRow {
   std::int32_t tiles;        ///< with pixels in them
   std::int32_t image_width;  ///< [px]
   std::int32_t pixel_rows;   ///< of the image in this row of tiles
   std::int32_t shift;        ///< a tile is 2^shift pixels wide
   float unit_m, sigma_per_z2;
-  float most_scatter_m;  ///< as in ReadingSummaries::build()
+  float most_scatter_m;  ///< as in DepthMeanPyramid::build()
   std::uint32_t seed;    ///< of this row
   float* count;          ///< readings
   float* mean_m;
   float* variance_m2;
-  std::int32_t* words;  ///< as in ReadingTiles
+  std::int32_t* words;  ///< as in DepthMeanTiles
 };
 
-/// A row of summaries of the next finer level.
-struct FinerRow {
+/// A row of means of the next finer level.
+struct FinerMeanRow {
   const float *count, *mean_m, *variance_m2;
   const std::int32_t* words;
 };
@@ -63,9 +63,9 @@ struct FinerRow {
 // On the widest vectors of this machine, the same bits on all of them.
 
 /// Tiles of 2 x 2 from two rows of pixels, of which `row.image_width` are read.
-void summarise_pixels(const std::uint16_t* upper, const std::uint16_t* lower,
-                      const SummaryRow& row);
+void average_pixels(const std::uint16_t* upper, const std::uint16_t* lower,
+                    const DepthMeanRow& row);
 /// Tiles from 2 x 2 finer ones.
-void merge_summaries(const FinerRow& upper, const FinerRow& lower, const SummaryRow& row);
+void merge_means(const FinerMeanRow& upper, const FinerMeanRow& lower, const DepthMeanRow& row);
 
 }  // namespace swiftlet

@@ -10,7 +10,7 @@
 
 #include "swiftlet/base/image.hpp"
 #include "swiftlet/base/worker_team.hpp"
-#include "swiftlet/integrate/image/reading_kernels.hpp"
+#include "swiftlet/integrate/image/depth_mean_kernels.hpp"
 
 namespace swiftlet {
 
@@ -18,9 +18,9 @@ namespace swiftlet {
 /// says about a cell can be told from these, pixel by pixel need not be looked at.
 ///
 /// That holds while the readings scatter like noise or a slope. Across the edge of an object a mean
-/// would lie in the empty space behind it: such a tile speaks with the voice of one of its parts,
+/// would lie in the empty space behind it: such a tile takes the depth of one of its parts,
 /// drawn with the chance of its readings and anew in every frame.
-class ReadingSummaries {
+class DepthMeanPyramid {
  public:
   static constexpr int kFinestShift = 1;
   static constexpr int kCoarsestShift = 5;
@@ -34,7 +34,7 @@ class ReadingSummaries {
   /// Allocates only while images grow.
   void build(const Image<std::uint16_t>& raw, const Options& options, WorkerTeam& team);
 
-  [[nodiscard]] ReadingTiles tiles(int shift) const;
+  [[nodiscard]] DepthMeanTiles tiles(int shift) const;
 
   [[nodiscard]] std::size_t memory_bytes() const;
 
@@ -54,8 +54,8 @@ class ReadingSummaries {
   void lay_out(int width, int height, int threads);
   void make_row(const Image<std::uint16_t>& raw, int shift, int y, const Options& options,
                 Scratch& scratch);
-  SummaryRow row_of(int shift, int y, const Options& options, RowPair& rows);
-  FinerRow finer(int shift, int y, const Scratch& scratch) const;
+  DepthMeanRow row_of(int shift, int y, const Options& options, RowPair& rows);
+  FinerMeanRow finer(int shift, int y, const Scratch& scratch) const;
 
   int width_ = 0, height_ = 0;
   std::vector<std::uint16_t> below_;  // the row under the last one: no readings
