@@ -43,7 +43,7 @@ struct FrameEvidence::Work {
 };
 
 FrameEvidence::FrameEvidence(const CubeView& view, const DepthRangePyramid& pyramid,
-                             const DepthMeanPyramid& means, const FrameInView& frame,
+                             const DepthMeanPyramid& means, const KernelParams& frame,
                              std::uint64_t frame_number)
     : view_(view),
       tiles_(pyramid.tiles()),
@@ -51,16 +51,16 @@ FrameEvidence::FrameEvidence(const CubeView& view, const DepthRangePyramid& pyra
       frame_(frame),
       frame_number_(frame_number) {}
 
-void FrameEvidence::judge_halves(const CubeInView& cube, int edge, Verdict verdict,
-                                 JudgedHalves& halves) const {
+void FrameEvidence::intersect_octants(const CubeInView& cube, int edge, UpdateType type,
+                                      OctantUpdates& octants) const {
   CubeBatch batch;
-  for (std::size_t i = 0; i < halves.cubes.size(); ++i) {
-    halves.cubes[i] = view_.child(cube, edge, static_cast<int>(i));
-    batch.add(halves.cubes[i].p_camera);
+  for (std::size_t i = 0; i < octants.cubes.size(); ++i) {
+    octants.cubes[i] = view_.child(cube, edge, static_cast<int>(i));
+    batch.add(octants.cubes[i].p_camera);
   }
-  batch.half_camera = halves.cubes[0].half_camera;
-  halves.verdicts.fill(verdict);
-  if (verdict != Verdict::kFree) judge(batch, halves.verdicts);
+  batch.half_camera = octants.cubes[0].half_camera;
+  octants.types.fill(type);
+  if (type != UpdateType::kFree) intersect(batch, octants.types);
 }
 
 CellCube FrameEvidence::cells_of(const CubeInView& cube, int edge, int offset) const {
@@ -74,14 +74,14 @@ CellCube FrameEvidence::cells_of(const CubeInView& cube, int edge, int offset) c
   return cells;
 }
 
-bool FrameEvidence::collect(const BlockIndex& index, Verdict verdict, const VoxelBlock* known,
+bool FrameEvidence::collect(const BlockIndex& index, UpdateType type, const VoxelBlock* known,
                             BlockEvidence& evidence) const {
-  if (verdict != Verdict::kMixed && is_surely_free(known, kBlockEdge, 0)) return false;
+  if (type != UpdateType::kPossiblyOccupied && is_surely_free(known, kBlockEdge, 0)) return false;
   evidence.steps.fill(0);
   evidence.passed.count = evidence.sampled.count = 0;
   const CubeInView cube = view_.cube(first_voxel(index), kBlockEdge);
   Work work{known, cells_of(cube, kBlockEdge, 0), evidence};
-  descend(cube, kBlockEdge, 0, verdict, work);
+  descend(cube, kBlockEdge, 0, type, work);
   look(cube, work);
   return work.has_free || std::ranges::any_of(evidence.steps, [](FixedSteps e) { return e != 0; });
 }
@@ -116,29 +116,30 @@ void FrameEvidence::look(const CubeInView& cube, Work& work) const {
   passed.count = sampled.count = 0;
 }
 
-void FrameEvidence::descend(const CubeInView& cube, int edge, int offset, Verdict verdict,
+void FrameEvidence::descend(const CubeInView& cube, int edge, int offset, UpdateType type,
                             Work& work) const {
-  if (verdict == Verdict::kNothing) return;
-  if (verdict != Verdict::kMixed && is_surely_free(work.known, edge, offset)) return;
-  if (verdict == Verdict::kFree && edge >= 4) {
+  if (type == UpdateType::kUnobserved) return;
+  if (type != UpdateType::kPossiblyOccupied && is_surely_free(work.known, edge, offset)) return;
+  if (type == UpdateType::kFree && edge >= 4) {
     fill_free(frame_, cells_of(cube, edge, offset), work.evidence.steps.data());
     work.has_free = true;
     return;
   }
   // What passes a cube passes its parts; single cells are not worth the question.
-  if (edge == 2 || (edge == 4 && verdict != Verdict::kMixed)) {
-    CellList& cells = verdict == Verdict::kMixed ? work.evidence.sampled : work.evidence.passed;
+  if (edge == 2 || (edge == 4 && type != UpdateType::kPossiblyOccupied)) {
+    CellList& cells =
+        type == UpdateType::kPossiblyOccupied ? work.evidence.sampled : work.evidence.passed;
     cells.add_cube(offset, edge);
     return;
   }
   const int half = edge / 2;
-  JudgedHalves halves;
-  judge_halves(cube, half, verdict, halves);
+  OctantUpdates octants;
+  intersect_octants(cube, half, type, octants);
   for (int i = 0; i < 8; ++i) {
     const int x = i & 1, y = (i >> 1) & 1, z = i >> 2;
-    const CubeInView& part = halves.cubes[static_cast<std::size_t>(i)];
+    const CubeInView& part = octants.cubes[static_cast<std::size_t>(i)];
     descend(part, half, offset + half * (x + kBlockEdge * (y + kBlockEdge * z)),
-            halves.verdicts[static_cast<std::size_t>(i)], work);
+            octants.types[static_cast<std::size_t>(i)], work);
     // Near the camera, each part of a block needs samples of its own.
     if (edge == kBlockEdge && cube.p_camera[2] < kFarCells * frame_.voxel_m) look(part, work);
   }

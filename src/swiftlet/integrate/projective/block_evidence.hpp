@@ -8,15 +8,15 @@
 
 #include "swiftlet/integrate/image/depth_mean_pyramid.hpp"
 #include "swiftlet/integrate/projective/cell_kernels.hpp"
-#include "swiftlet/integrate/projective/cube_judge.hpp"
+#include "swiftlet/integrate/projective/range_image_intersector.hpp"
 #include "swiftlet/map/voxel_block.hpp"
 
 namespace swiftlet {
 
-/// The eight halves of a cube, as CubeView::child() counts them, and what a frame says of each.
-struct JudgedHalves {
+/// The eight octants of a cube, as CubeView::child() counts them, and what a frame says of each.
+struct OctantUpdates {
   std::array<CubeInView, 8> cubes;
-  Verdicts verdicts;
+  UpdateTypes types;
 };
 
 /// Where the evidence of one block is put together.
@@ -31,31 +31,32 @@ struct BlockEvidence {
 class FrameEvidence {
  public:
   FrameEvidence(const CubeView& view, const DepthRangePyramid& pyramid,
-                const DepthMeanPyramid& means, const FrameInView& frame,
+                const DepthMeanPyramid& means, const KernelParams& frame,
                 std::uint64_t frame_number);
 
-  void judge(const CubeBatch& cubes, Verdicts& verdicts) const {
-    judge_cubes(frame_, tiles_, cubes, verdicts);
+  void intersect(const CubeBatch& cubes, UpdateTypes& types) const {
+    intersect_cubes(frame_, tiles_, cubes, types);
   }
-  /// The eight halves, `edge` cells wide, of a cube that was judged so. What passes a cube passes
-  /// its halves: those of a free one need no look.
-  void judge_halves(const CubeInView& cube, int edge, Verdict verdict, JudgedHalves& halves) const;
+  /// The eight octants, `edge` cells wide, of a cube of this type. What passes a cube passes
+  /// its octants: those of a free one need no look.
+  void intersect_octants(const CubeInView& cube, int edge, UpdateType type,
+                         OctantUpdates& octants) const;
 
-  /// The evidence for a block that was judged so. Cells that `known` shows to be surely free may be
+  /// The evidence for a block of this type. Cells that `known` shows to be surely free may be
   /// left out where they are free. False if there is none.
-  bool collect(const BlockIndex& index, Verdict verdict, const VoxelBlock* known,
+  bool collect(const BlockIndex& index, UpdateType type, const VoxelBlock* known,
                BlockEvidence& evidence) const;
 
  private:
   struct Work;
-  void descend(const CubeInView& cube, int edge, int offset, Verdict verdict, Work& work) const;
+  void descend(const CubeInView& cube, int edge, int offset, UpdateType type, Work& work) const;
   void look(const CubeInView& cube, Work& work) const;
   [[nodiscard]] CellCube cells_of(const CubeInView& cube, int edge, int offset) const;
 
   const CubeView& view_;
   DepthRangeTiles tiles_;
   const DepthMeanPyramid& means_;
-  const FrameInView& frame_;
+  const KernelParams& frame_;
   std::uint64_t frame_number_;
 };
 

@@ -16,7 +16,7 @@
 namespace swiftlet {
 
 /// What the kernels know of one frame and its sensor. Lengths in metres, images in pixels.
-struct FrameInView {
+struct KernelParams {
   std::array<Float3, 3> world_axis;  ///< of the world, in camera axes
   float fx, fy;
   float u_offset, v_offset;  ///< principal point + 0.5: floor() of a place is its pixel
@@ -88,14 +88,14 @@ struct CellLook {
 // the number of lanes. Evidence is that of a whole frame (method 6); `block` is the whole block.
 
 /// Cells that every ray through them passes. REQUIRES: z > 2 cells.
-void fill_free(const FrameInView& frame, const CellCube& cube, FixedSteps* evidence);
+void fill_free(const KernelParams& params, const CellCube& cube, FixedSteps* evidence);
 
 /// Cells that every reading passes: free as far as the pixels of their image have one.
-void fill_passed(const FrameInView& frame, const CellCube& block, const CellList& cells,
+void fill_passed(const KernelParams& params, const CellCube& block, const CellList& cells,
                  const CellLook& look, FixedSteps* evidence);
 
 /// Any cells: the mean of the inverse sensor model over the tiles at samples of their image.
-void fill_sampled(const FrameInView& frame, const CellCube& block, const CellList& cells,
+void fill_sampled(const KernelParams& params, const CellCube& block, const CellList& cells,
                   const CellLook& look, FixedSteps* evidence);
 
 }  // namespace swiftlet

@@ -25,17 +25,17 @@ struct CellLanes {
 };
 
 /// Cells so many cells along x, y, z from the first of a cube.
-HWY_INLINE CellLanes cells_at(const FrameInView& frame, const CellCube& cube, FloatLanes x,
+HWY_INLINE CellLanes cells_at(const KernelParams& params, const CellCube& cube, FloatLanes x,
                               FloatLanes y, FloatLanes z) {
   constexpr Floats f;
-  const FloatLanes voxel = hn::Set(f, frame.voxel_m);
+  const FloatLanes voxel = hn::Set(f, params.voxel_m);
   const FloatLanes step[3] = {hn::Mul(x, voxel), hn::Mul(y, voxel), hn::Mul(z, voxel)};
   CellLanes cells;
   for (int i = 0; i < 3; ++i) {
     cells.world[i] = hn::Add(hn::Set(f, cube.p_world[i]), step[i]);
-    const FloatLanes along_x = hn::Mul(step[0], hn::Set(f, frame.world_axis[0][i]));
-    const FloatLanes along_y = hn::Mul(step[1], hn::Set(f, frame.world_axis[1][i]));
-    const FloatLanes along_z = hn::Mul(step[2], hn::Set(f, frame.world_axis[2][i]));
+    const FloatLanes along_x = hn::Mul(step[0], hn::Set(f, params.world_axis[0][i]));
+    const FloatLanes along_y = hn::Mul(step[1], hn::Set(f, params.world_axis[1][i]));
+    const FloatLanes along_z = hn::Mul(step[2], hn::Set(f, params.world_axis[2][i]));
     cells.camera[i] =
         hn::Add(hn::Add(hn::Set(f, cube.p_camera[i]), along_x), hn::Add(along_y, along_z));
   }
@@ -43,10 +43,10 @@ HWY_INLINE CellLanes cells_at(const FrameInView& frame, const CellCube& cube, Fl
 }
 
 /// Log-odds as evidence, within what saturates a cell; not held.
-HWY_INLINE IntLanes fixed_steps(const FrameInView& frame, FloatLanes log_odds) {
+HWY_INLINE IntLanes fixed_steps(const KernelParams& params, FloatLanes log_odds) {
   constexpr Floats f;
   constexpr Ints i;
-  const FloatLanes steps = hn::Mul(log_odds, hn::Set(f, frame.steps_per_log_odds));
+  const FloatLanes steps = hn::Mul(log_odds, hn::Set(f, params.steps_per_log_odds));
   const FloatLanes most = hn::Set(f, static_cast<float>(kMostSteps));
   const IntLanes whole = hn::ConvertTo(i, hn::Min(hn::Max(steps, hn::Neg(most)), most));
   return hn::And(whole, hn::Set(i, ~kIsHeld));

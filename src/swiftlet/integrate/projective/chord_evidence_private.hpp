@@ -26,10 +26,10 @@ struct ChordsOfFace {
   FloatLanes per_far_j[2], per_far_k[2];  // 1 / the places of the other planes: lower, upper
 
   HWY_INLINE ChordsOfFace() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
-  HWY_INLINE ChordsOfFace(const FrameInView& frame, const CellLanes& cells, std::size_t axis)
+  HWY_INLINE ChordsOfFace(const KernelParams& params, const CellLanes& cells, std::size_t axis)
       : world_j(cells.world[(axis + 1) % 3]), world_k(cells.world[(axis + 2) % 3]) {
     constexpr Floats f;
-    const FloatLanes half = hn::Set(f, 0.5F * frame.voxel_m), one = hn::Set(f, 1.0F);
+    const FloatLanes half = hn::Set(f, 0.5F * params.voxel_m), one = hn::Set(f, 1.0F);
     const FloatLanes across = hn::Abs(cells.world[axis]);
     opposite_share = hn::Div(hn::Sub(across, half), hn::Add(across, half));
     // A plane that rays meet lies ahead; one that lies behind is never asked for.
@@ -68,12 +68,12 @@ struct ReadingsAndChords {
   FloatLanes length;     // of the chords [cells]
   FloatLanes per_sigma;  // 1 / the deviation of the readings, in units of their depth
 
-  HWY_INLINE ReadingsAndChords(const FrameInView& frame, const DepthMeanTiles& tiles,
+  HWY_INLINE ReadingsAndChords(const KernelParams& params, const DepthMeanTiles& tiles,
                                const Sample& s, const ChordsOfFace& cell, const FaceSample& place)
       : readings(readings_at(tiles, s.tile)), z_out(cell.z_out(s.z, place)) {
     constexpr Floats f;
-    length = hn::Mul(hn::Sub(z_out, s.z), hn::Set(f, 1.0F / frame.voxel_m));
-    per_sigma = hn::Mul(hn::Mul(readings.per_z, hn::Set(f, frame.per_sigma)), readings.narrow);
+    length = hn::Mul(hn::Sub(z_out, s.z), hn::Set(f, 1.0F / params.voxel_m));
+    per_sigma = hn::Mul(hn::Mul(readings.per_z, hn::Set(f, params.per_sigma)), readings.narrow);
   }
 
   /// How far x [m] lies behind the readings, in units of their depth: with sigma = a z^2,
@@ -83,13 +83,14 @@ struct ReadingsAndChords {
   }
 
   /// The least that the readings say of the cells.
-  [[nodiscard]] HWY_INLINE FloatLanes least_log_odds(const FrameInView& frame) const {
+  [[nodiscard]] HWY_INLINE FloatLanes least_log_odds(const KernelParams& params) const {
     constexpr Floats f;
     static_assert(ChordModel::kClearSigma <= EvidenceTable::kInFrontSigma);
-    const FloatLanes sigmas = hn::Mul(behind(hn::Add(z_out, hn::Set(f, frame.clear_m))), per_sigma);
+    const FloatLanes sigmas =
+        hn::Mul(behind(hn::Add(z_out, hn::Set(f, params.clear_m))), per_sigma);
     const auto is_clear = hn::Lt(sigmas, hn::Set(f, -ChordModel::kClearSigma));
-    return hn::IfThenElse(is_clear, hn::Set(f, frame.clear_log_odds),
-                          hn::Set(f, frame.free_log_odds));
+    return hn::IfThenElse(is_clear, hn::Set(f, params.clear_log_odds),
+                          hn::Set(f, params.free_log_odds));
   }
 };
 
@@ -98,33 +99,34 @@ struct ChordEvidence {
   using OfFace = ChordsOfFace;
   static constexpr bool kHolds = true;
 
-  HWY_INLINE static Said says(const FrameInView& frame, const DepthMeanTiles& tiles,
-                              const Sample& s, const OfFace& cell, const FaceSample& place) {
+  HWY_INLINE static SampleEvidence evaluate(const KernelParams& params, const DepthMeanTiles& tiles,
+                                            const Sample& s, const OfFace& cell,
+                                            const FaceSample& place) {
     constexpr Floats f;
-    const ReadingsAndChords r(frame, tiles, s, cell, place);
+    const ReadingsAndChords r(params, tiles, s, cell, place);
     const FloatLanes one = hn::Set(f, 1.0F), zero = hn::Zero(f);
     const FloatLanes gain = hn::Mul(hn::Mul(hn::Mul(r.per_sigma, r.per_sigma), r.readings.per_z),
-                                    hn::Set(f, ChordModel::kIndependence * frame.voxel_m));
+                                    hn::Set(f, ChordModel::kIndependence * params.voxel_m));
     const FloatLanes middle = hn::Mul(hn::Add(s.z, r.z_out), hn::Set(f, 0.5F));
     const FloatLanes ratio =
-        hn::Min(hn::Max(hn::Mul(gain, r.behind(middle)), r.least_log_odds(frame)),
+        hn::Min(hn::Max(hn::Mul(gain, r.behind(middle)), r.least_log_odds(params)),
                 hn::Set(f, ChordModel::kMostLogOdds));
 
-    const FloatLanes hiding = hn::Set(f, ChordModel::kHidingCells * frame.voxel_m);
+    const FloatLanes hiding = hn::Set(f, ChordModel::kHidingCells * params.voxel_m);
     const FloatLanes before = hn::Mul(r.behind(hn::Sub(s.z, hiding)), r.per_sigma);
     const FloatLanes left =
         hn::Min(hn::Max(hn::Sub(hn::Set(f, ChordModel::kFadeSigma), before), zero), one);
     const auto is_reached = hn::Gt(left, zero);
     const FloatLanes fading = hn::IfThenElse(hn::Gt(ratio, zero), left, one);
     const FloatLanes share = hn::IfThenElseZero(is_reached, r.readings.share);
-    Said said;
-    said.log_odds = hn::Mul(hn::Mul(ratio, fading), hn::Mul(r.length, share));
+    SampleEvidence result;
+    result.log_odds = hn::Mul(hn::Mul(ratio, fading), hn::Mul(r.length, share));
 
-    const FloatLanes end = hn::Set(f, ChordModel::kEndCells * frame.voxel_m);
+    const FloatLanes end = hn::Set(f, ChordModel::kEndCells * params.voxel_m);
     const auto passes = hn::Lt(r.behind(hn::Add(r.z_out, end)), zero);
-    said.ends = hn::Mul(share, hn::IfThenElse(passes, hn::Set(f, -ChordModel::kLeastEnds),
-                                              hn::Set(f, 1.0F - ChordModel::kLeastEnds)));
-    return said;
+    result.ends = hn::Mul(share, hn::IfThenElse(passes, hn::Set(f, -ChordModel::kLeastEnds),
+                                                hn::Set(f, 1.0F - ChordModel::kLeastEnds)));
+    return result;
   }
 };
 
@@ -133,12 +135,13 @@ struct PassedChord {
   using OfFace = ChordsOfFace;
   static constexpr bool kHolds = false;
 
-  HWY_INLINE static Said says(const FrameInView& frame, const DepthMeanTiles& tiles,
-                              const Sample& s, const OfFace& cell, const FaceSample& place) {
-    const ReadingsAndChords r(frame, tiles, s, cell, place);
-    Said said;
-    said.log_odds = hn::Mul(r.least_log_odds(frame), hn::Mul(r.length, r.readings.share));
-    return said;
+  HWY_INLINE static SampleEvidence evaluate(const KernelParams& params, const DepthMeanTiles& tiles,
+                                            const Sample& s, const OfFace& cell,
+                                            const FaceSample& place) {
+    const ReadingsAndChords r(params, tiles, s, cell, place);
+    SampleEvidence result;
+    result.log_odds = hn::Mul(r.least_log_odds(params), hn::Mul(r.length, r.readings.share));
+    return result;
   }
 };
 

@@ -45,8 +45,8 @@ class CubeView {
   [[nodiscard]] CubeInView cube(const VoxelIndex& first, int edge) const;
   /// Whether the image of a cube before the camera lies within the image, and 1/16 pixel more.
   [[nodiscard]] bool is_inside_image(const CubeInView& cube) const;
-  /// One of the eight halves, `edge` cells wide, of a cube: the bits of `place` tell its side along
-  /// x, y and z.
+  /// One of the eight octants, `edge` cells wide, of a cube: the bits of `place` tell its side
+  /// along x, y and z.
   [[nodiscard]] CubeInView child(const CubeInView& parent, int edge, int place) const {
     const float step = 0.5F * static_cast<float>(edge) * voxel_m_;
     CubeInView cube;

@@ -27,15 +27,15 @@ HWY_ALIGN constexpr float kLaneY[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3
 /// 1 / z^3 (1 + 6 var(q_z) / z^2) around its middle.
 ///
 /// By chords it is the mean of DW over the cell's volume, which is one.
-HWY_INLINE FloatLanes observations(const FrameInView& frame, const CellLanes& cells) {
+HWY_INLINE FloatLanes observations(const KernelParams& params, const CellLanes& cells) {
   constexpr Floats f;
-  if (frame.has_chords) return hn::Set(f, 1.0F);
-  const FloatLanes half = hn::Set(f, 0.5F * frame.voxel_m);
+  if (params.has_chords) return hn::Set(f, 1.0F);
+  const FloatLanes half = hn::Set(f, 0.5F * params.voxel_m);
   FloatLanes sum = hn::Zero(f);
   for (int i = 0; i < 3; ++i) {
-    const float along = frame.world_axis[i][2];
+    const float along = params.world_axis[i][2];
     // Depth over a face is uniform along its two edges: variance (a_j^2 + a_k^2) c^2 / 12.
-    const float spread = 0.5F * (1.0F - along * along) * frame.voxel_m * frame.voxel_m;
+    const float spread = 0.5F * (1.0F - along * along) * params.voxel_m * params.voxel_m;
     const FloatLanes distance = hn::Max(hn::Zero(f), hn::Sub(hn::Abs(cells.world[i]), half));
     const FloatLanes to_face = hn::Mul(hn::CopySign(half, cells.world[i]), hn::Set(f, along));
     const FloatLanes per_z = hn::Div(hn::Set(f, 1.0F), hn::Sub(cells.camera[2], to_face));
@@ -46,7 +46,7 @@ HWY_INLINE FloatLanes observations(const FrameInView& frame, const CellLanes& ce
   return hn::Mul(sum, hn::Mul(cells.camera[2], cells.camera[2]));
 }
 
-void free_cells(const FrameInView& frame, const CellCube& cube, FixedSteps* evidence) {
+void free_cells(const KernelParams& params, const CellCube& cube, FixedSteps* evidence) {
   constexpr Floats f;
   constexpr Ints i;
   const auto rows = static_cast<int>(hn::Lanes(f)) / kRowLanes;
@@ -55,12 +55,12 @@ void free_cells(const FrameInView& frame, const CellCube& cube, FixedSteps* evid
     for (int y = 0; y < cube.edge; y += rows) {
       for (int x = 0; x < cube.edge; x += kRowLanes) {
         const CellLanes cells = cells_at(
-            frame, cube, hn::Add(lane_x, hn::Set(f, static_cast<float>(x))),
+            params, cube, hn::Add(lane_x, hn::Set(f, static_cast<float>(x))),
             hn::Add(lane_y, hn::Set(f, static_cast<float>(y))), hn::Set(f, static_cast<float>(z)));
         const FloatLanes log_odds =
-            hn::Mul(observations(frame, cells), hn::Set(f, frame.clear_log_odds));
+            hn::Mul(observations(params, cells), hn::Set(f, params.clear_log_odds));
         HWY_ALIGN FixedSteps lanes[16];
-        hn::Store(fixed_steps(frame, log_odds), i, lanes);
+        hn::Store(fixed_steps(params, log_odds), i, lanes);
         FixedSteps* first = evidence + (cube.offset + kBlockEdge * (y + kBlockEdge * z) + x);
         for (std::ptrdiff_t row = 0; row < rows; ++row)
           std::memcpy(first + kBlockEdge * row, lanes + kRowLanes * row,
@@ -79,8 +79,8 @@ namespace swiftlet {
 
 HWY_EXPORT(free_cells);
 
-void fill_free(const FrameInView& frame, const CellCube& cube, FixedSteps* evidence) {
-  HWY_DYNAMIC_DISPATCH(free_cells)(frame, cube, evidence);
+void fill_free(const KernelParams& params, const CellCube& cube, FixedSteps* evidence) {
+  HWY_DYNAMIC_DISPATCH(free_cells)(params, cube, evidence);
 }
 
 }  // namespace swiftlet

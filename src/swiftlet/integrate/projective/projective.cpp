@@ -12,7 +12,7 @@
 #include "swiftlet/base/worker_team.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/projective/block_evidence.hpp"
-#include "swiftlet/integrate/projective/view_cubes.hpp"
+#include "swiftlet/integrate/projective/view_calculator.hpp"
 
 namespace swiftlet {
 namespace {
@@ -22,8 +22,8 @@ using Clock = std::chrono::steady_clock;
 /// Readings of a tile that lie farther apart than this, in cells, are on two sides of an edge.
 constexpr float kMostScatter = 0.35F;
 
-FrameInView look(const CubeView& view, const StereoSensor& sensor, const EvidenceTable& table,
-                 float unit_m, float steps_per_log_odds) {
+KernelParams look(const CubeView& view, const StereoSensor& sensor, const EvidenceTable& table,
+                  float unit_m, float steps_per_log_odds) {
   const Float3& a = view.optical_axis();
   const float across_cells = std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]);
   // From the nearest point of a cell's cube to the nearest of its slice.
@@ -78,7 +78,7 @@ class ProjectiveIntegrator final : public Integrator {
     const float unit_m = view.depth.unit_m;
     if (sensor.shape() == CellShape::kSlice)
       table_.prepare(sensor, cubes.voxel_m(), unit_m * static_cast<float>(view.pyramid.farthest()));
-    const FrameInView in_view = look(cubes, sensor, table_, unit_m, steps_per_log_odds_);
+    const KernelParams in_view = look(cubes, sensor, table_, unit_m, steps_per_log_odds_);
     means_.build(view.depth.raw,
                  {.unit_m = unit_m,
                   .sigma_per_z2 = in_view.sigma_per_z2,
@@ -95,8 +95,8 @@ class ProjectiveIntegrator final : public Integrator {
       while (!is_late(start)) {
         const std::size_t mine = next.fetch_add(1, std::memory_order_relaxed);
         if (mine >= cubes_.size()) break;
-        cubes_.for_each_block(mine, cubes, frame, [&](const BlockIndex& index, Verdict verdict) {
-          w.update(index, verdict, frame, map, view.frame_number);
+        cubes_.for_each_block(mine, cubes, frame, [&](const BlockIndex& index, UpdateType type) {
+          w.update(index, type, frame, map, view.frame_number);
         });
       }
     });
@@ -122,10 +122,10 @@ class ProjectiveIntegrator final : public Integrator {
     std::vector<BlockUpdate> updates;
     BlockEvidence evidence;
 
-    void update(const BlockIndex& index, Verdict verdict, const FrameEvidence& frame,
+    void update(const BlockIndex& index, UpdateType type, const FrameEvidence& frame,
                 const RollingMap& map, std::uint64_t frame_number) {
       const VoxelBlock* known = map.find(index);
-      if (!frame.collect(index, verdict, known, evidence)) return;
+      if (!frame.collect(index, type, known, evidence)) return;
       BlockUpdate& u = updates.emplace_back();
       u.index = index;
       if (known == nullptr) {
@@ -156,7 +156,7 @@ class ProjectiveIntegrator final : public Integrator {
   WorkerTeam team_;
   EvidenceTable table_;
   DepthMeanPyramid means_;
-  ViewCubes cubes_;
+  ViewCalculator cubes_;
   std::vector<Worker> workers_;
 };
 

@@ -34,12 +34,13 @@ struct Face {
   FloatLanes sum, least, most, ends;
 
   HWY_INLINE Face() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
-  HWY_INLINE Face(const FrameInView& frame, const CellLanes& cells, std::size_t axis)
-      : cell(frame, cells, axis) {
+  HWY_INLINE Face(const KernelParams& params, const CellLanes& cells, std::size_t axis)
+      : cell(params, cells, axis) {
     constexpr Floats f;
-    const FloatLanes to_face = hn::CopySign(hn::Set(f, 0.5F * frame.voxel_m), cells.world[axis]);
+    const FloatLanes to_face = hn::CopySign(hn::Set(f, 0.5F * params.voxel_m), cells.world[axis]);
     for (int i = 0; i < 3; ++i) {
-      middle[i] = hn::Sub(cells.camera[i], hn::Mul(to_face, hn::Set(f, frame.world_axis[axis][i])));
+      middle[i] =
+          hn::Sub(cells.camera[i], hn::Mul(to_face, hn::Set(f, params.world_axis[axis][i])));
     }
     sum = ends = hn::Zero(f);
     least = hn::Set(f, 1e9F);
@@ -47,18 +48,18 @@ struct Face {
   }
 
   template <bool IsInside>
-  HWY_INLINE void add(const FrameInView& frame, const CellLook& look, const FaceSample& place) {
-    const Sample s = sample_at<IsInside>(frame, look.tiles, middle, place.to);
+  HWY_INLINE void add(const KernelParams& params, const CellLook& look, const FaceSample& place) {
+    const Sample s = sample_at<IsInside>(params, look.tiles, middle, place.to);
     const FloatLanes rays = hn::Mul(s.per_z, hn::Mul(s.per_z, s.per_z));
-    Said said = What::says(frame, look.tiles, s, cell, place);
+    SampleEvidence result = What::evaluate(params, look.tiles, s, cell, place);
     if constexpr (!IsInside) {
-      said.log_odds = hn::IfThenElseZero(s.is_inside, said.log_odds);
-      said.ends = hn::IfThenElseZero(s.is_inside, said.ends);
+      result.log_odds = hn::IfThenElseZero(s.is_inside, result.log_odds);
+      result.ends = hn::IfThenElseZero(s.is_inside, result.ends);
     }
-    sum = hn::Add(sum, hn::Mul(rays, said.log_odds));
-    if constexpr (What::kHolds) ends = hn::Add(ends, hn::Mul(rays, said.ends));
-    least = hn::Min(least, said.log_odds);
-    most = hn::Max(most, said.log_odds);
+    sum = hn::Add(sum, hn::Mul(rays, result.log_odds));
+    if constexpr (What::kHolds) ends = hn::Add(ends, hn::Mul(rays, result.ends));
+    least = hn::Min(least, result.log_odds);
+    most = hn::Max(most, result.log_odds);
   }
 
   [[nodiscard]] HWY_INLINE bool is_flat() const {
@@ -78,29 +79,29 @@ struct Sums {
 /// |n q| / q_z^3 rays per area, and a ray counts DW, z^2 times a constant that the area cancels.
 /// Adds one face's part to the sums of a group of cells.
 template <class What, bool IsInside>
-HWY_INLINE void add_face(const FrameInView& frame, const CellLook& look, const CellLanes* cells,
+HWY_INLINE void add_face(const KernelParams& params, const CellLook& look, const CellLanes* cells,
                          std::size_t axis, Sums* sums) {
   constexpr Floats f;
   Face<What> faces[kVectors];
-  for (std::size_t v = 0; v < kVectors; ++v) faces[v] = Face<What>(frame, cells[v], axis);
+  for (std::size_t v = 0; v < kVectors; ++v) faces[v] = Face<What>(params, cells[v], axis);
   const std::span<const FaceSample> places = look.samples.on_face(axis);
   std::size_t count = std::min(places.size(), kFew);
   bool is_flat = true;
   for (Face<What>& face : faces) {
-    for (std::size_t k = 0; k < count; ++k) face.template add<IsInside>(frame, look, places[k]);
+    for (std::size_t k = 0; k < count; ++k) face.template add<IsInside>(params, look, places[k]);
     is_flat = is_flat && face.is_flat();
   }
   if (!is_flat) {
     for (Face<What>& face : faces) {
       for (const FaceSample& place : places.subspan(count))
-        face.template add<IsInside>(frame, look, place);
+        face.template add<IsInside>(params, look, place);
     }
     count = places.size();
   }
   const FloatLanes per_count =
       hn::Set(f, 1.0F / (DepthMeanTiles::kAll * static_cast<float>(count)));
   for (std::size_t v = 0; v < kVectors; ++v) {
-    const FloatLanes half = hn::Set(f, 0.5F * frame.voxel_m);
+    const FloatLanes half = hn::Set(f, 0.5F * params.voxel_m);
     const FloatLanes distance = hn::Max(hn::Zero(f), hn::Sub(hn::Abs(cells[v].world[axis]), half));
     const FloatLanes share = hn::Mul(distance, per_count);
     sums[v].log_odds = hn::Add(sums[v].log_odds, hn::Mul(share, faces[v].sum));
@@ -109,7 +110,7 @@ HWY_INLINE void add_face(const FrameInView& frame, const CellLook& look, const C
 }
 
 template <class What, bool IsInside>
-HWY_INLINE void fill(const FrameInView& frame, const CellCube& block, const CellList& list,
+HWY_INLINE void fill(const KernelParams& params, const CellCube& block, const CellList& list,
                      const CellLook& look, FixedSteps* evidence) {
   constexpr Floats f;
   constexpr Ints i;
@@ -119,16 +120,16 @@ HWY_INLINE void fill(const FrameInView& frame, const CellCube& block, const Cell
     Sums sums[kVectors];
     for (std::size_t v = 0; v < kVectors; ++v) {
       const std::size_t at = k + v * lanes;
-      cells[v] = cells_at(frame, block, hn::LoadU(f, &list.x[at]), hn::LoadU(f, &list.y[at]),
+      cells[v] = cells_at(params, block, hn::LoadU(f, &list.x[at]), hn::LoadU(f, &list.y[at]),
                           hn::LoadU(f, &list.z[at]));
       sums[v].log_odds = sums[v].ends = hn::Zero(f);
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
-      add_face<What, IsInside>(frame, look, cells, axis, sums);
+      add_face<What, IsInside>(params, look, cells, axis, sums);
     HWY_ALIGN FixedSteps steps[kGroup];
     for (std::size_t v = 0; v < kVectors; ++v) {
       const FloatLanes z = hn::Max(hn::Zero(f), cells[v].camera[2]);
-      IntLanes all = fixed_steps(frame, hn::Mul(sums[v].log_odds, hn::Mul(z, z)));
+      IntLanes all = fixed_steps(params, hn::Mul(sums[v].log_odds, hn::Mul(z, z)));
       if constexpr (What::kHolds) {
         const auto ends = hn::RebindMask(i, hn::Gt(sums[v].ends, hn::Zero(f)));
         const auto is_held = hn::And(ends, hn::Lt(all, hn::Zero(i)));
@@ -142,30 +143,30 @@ HWY_INLINE void fill(const FrameInView& frame, const CellCube& block, const Cell
 }
 
 template <class What>
-HWY_INLINE void fill(const FrameInView& frame, const CellCube& block, const CellList& cells,
+HWY_INLINE void fill(const KernelParams& params, const CellCube& block, const CellList& cells,
                      const CellLook& look, FixedSteps* evidence) {
   if (look.is_inside_image) {
-    fill<What, true>(frame, block, cells, look, evidence);
+    fill<What, true>(params, block, cells, look, evidence);
   } else {
-    fill<What, false>(frame, block, cells, look, evidence);
+    fill<What, false>(params, block, cells, look, evidence);
   }
 }
 
-void passed_cells(const FrameInView& frame, const CellCube& block, const CellList& cells,
+void passed_cells(const KernelParams& params, const CellCube& block, const CellList& cells,
                   const CellLook& look, FixedSteps* evidence) {
-  if (frame.has_chords) {
-    fill<PassedChord>(frame, block, cells, look, evidence);
+  if (params.has_chords) {
+    fill<PassedChord>(params, block, cells, look, evidence);
   } else {
-    fill<PassedSlice>(frame, block, cells, look, evidence);
+    fill<PassedSlice>(params, block, cells, look, evidence);
   }
 }
 
-void sampled_cells(const FrameInView& frame, const CellCube& block, const CellList& cells,
+void sampled_cells(const KernelParams& params, const CellCube& block, const CellList& cells,
                    const CellLook& look, FixedSteps* evidence) {
-  if (frame.has_chords) {
-    fill<ChordEvidence>(frame, block, cells, look, evidence);
+  if (params.has_chords) {
+    fill<ChordEvidence>(params, block, cells, look, evidence);
   } else {
-    fill<SliceEvidence>(frame, block, cells, look, evidence);
+    fill<SliceEvidence>(params, block, cells, look, evidence);
   }
 }
 
@@ -179,14 +180,14 @@ namespace swiftlet {
 HWY_EXPORT(passed_cells);
 HWY_EXPORT(sampled_cells);
 
-void fill_passed(const FrameInView& frame, const CellCube& block, const CellList& cells,
+void fill_passed(const KernelParams& params, const CellCube& block, const CellList& cells,
                  const CellLook& look, FixedSteps* evidence) {
-  HWY_DYNAMIC_DISPATCH(passed_cells)(frame, block, cells, look, evidence);
+  HWY_DYNAMIC_DISPATCH(passed_cells)(params, block, cells, look, evidence);
 }
 
-void fill_sampled(const FrameInView& frame, const CellCube& block, const CellList& cells,
+void fill_sampled(const KernelParams& params, const CellCube& block, const CellList& cells,
                   const CellLook& look, FixedSteps* evidence) {
-  HWY_DYNAMIC_DISPATCH(sampled_cells)(frame, block, cells, look, evidence);
+  HWY_DYNAMIC_DISPATCH(sampled_cells)(params, block, cells, look, evidence);
 }
 
 }  // namespace swiftlet

@@ -37,7 +37,7 @@ HWY_INLINE IntLanes whole_number(FloatLanes x) {
 
 /// With IsInside, all of the cells is known to lie inside the image.
 template <bool IsInside>
-HWY_INLINE Sample sample_at(const FrameInView& frame, const DepthMeanTiles& tiles,
+HWY_INLINE Sample sample_at(const KernelParams& params, const DepthMeanTiles& tiles,
                             const FloatLanes* face, const Float3& to) {
   constexpr Floats f;
   constexpr Ints i;
@@ -49,10 +49,10 @@ HWY_INLINE Sample sample_at(const FrameInView& frame, const DepthMeanTiles& tile
     const FloatLanes slope = hn::Mul(hn::Add(face[axis], hn::Set(f, to[axis])), s.per_z);
     return hn::Add(hn::Mul(slope, hn::Set(f, focal)), hn::Set(f, offset));
   };
-  FloatLanes u = place(0, frame.fx, frame.u_offset), v = place(1, frame.fy, frame.v_offset);
+  FloatLanes u = place(0, params.fx, params.u_offset), v = place(1, params.fy, params.v_offset);
   if constexpr (!IsInside) {
-    const auto is_in_u = hn::And(hn::Ge(u, zero), hn::Lt(u, hn::Set(f, frame.width)));
-    const auto is_in_v = hn::And(hn::Ge(v, zero), hn::Lt(v, hn::Set(f, frame.height)));
+    const auto is_in_u = hn::And(hn::Ge(u, zero), hn::Lt(u, hn::Set(f, params.width)));
+    const auto is_in_v = hn::And(hn::Ge(v, zero), hn::Lt(v, hn::Set(f, params.height)));
     s.is_inside = hn::And(hn::Gt(s.z, zero), hn::And(is_in_u, is_in_v));
     u = hn::IfThenElseZero(s.is_inside, u);
     v = hn::IfThenElseZero(s.is_inside, v);
@@ -69,11 +69,11 @@ HWY_INLINE Sample sample_at(const FrameInView& frame, const DepthMeanTiles& tile
 }
 
 /// What one sample says.
-struct Said {
+struct SampleEvidence {
   FloatLanes log_odds;  ///< * kAll
   FloatLanes ends;      ///< * kAll, ChordModel::Evidence; what does not hold cells leaves it alone
 
-  HWY_INLINE Said() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
+  HWY_INLINE SampleEvidence() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
 };
 
 HWY_INLINE FloatLanes share_of(IntLanes word) {
@@ -140,7 +140,7 @@ struct CentreOfFace {
   FloatLanes z;
 
   HWY_INLINE CentreOfFace() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
-  HWY_INLINE CentreOfFace(const FrameInView&, const CellLanes& cells, std::size_t)
+  HWY_INLINE CentreOfFace(const KernelParams&, const CellLanes& cells, std::size_t)
       : z(cells.camera[2]) {}
 };
 
@@ -150,8 +150,9 @@ struct SliceEvidence {
   using OfFace = CentreOfFace;
   static constexpr bool kHolds = false;
 
-  HWY_INLINE static Said says(const FrameInView& frame, const DepthMeanTiles& tiles,
-                              const Sample& s, const OfFace& cell, const FaceSample&) {
+  HWY_INLINE static SampleEvidence evaluate(const KernelParams& params, const DepthMeanTiles& tiles,
+                                            const Sample& s, const OfFace& cell,
+                                            const FaceSample&) {
     constexpr Floats f;
     constexpr Ints i;
     const Readings readings = readings_at(tiles, s.tile);
@@ -160,9 +161,9 @@ struct SliceEvidence {
     // Distances behind the readings' mean m in their deviations: (z - m) / sigma with sigma = a m^2
     // is (z / m - 1) / (a m).
     const FloatLanes one = hn::Set(f, 1.0F);
-    const FloatLanes scale = hn::Mul(per_z, hn::Set(f, frame.per_sigma));
+    const FloatLanes scale = hn::Mul(per_z, hn::Set(f, params.per_sigma));
     const FloatLanes centre = hn::Mul(scale, hn::Sub(hn::Mul(cell.z, per_z), one));
-    const FloatLanes half = hn::Mul(hn::Mul(scale, per_z), hn::Set(f, 0.5F * frame.voxel_m));
+    const FloatLanes half = hn::Mul(hn::Mul(scale, per_z), hn::Set(f, 0.5F * params.voxel_m));
     const FloatLanes entry = hn::Mul(scale, hn::Sub(hn::Mul(s.z, per_z), one));
     const FloatLanes far_side = within_reach(hn::Mul(hn::Add(centre, half), narrow));
     const FloatLanes near_side = within_reach(hn::Mul(hn::Sub(centre, half), narrow));
@@ -178,14 +179,14 @@ struct SliceEvidence {
     const IntLanes row = hn::ShiftLeft<3>(hn::And(readings.code, hn::Set(i, 0xff00)));
     const IntLanes place = hn::Or(hn::Or(row, hn::ShiftLeft<8>(of_class)),
                                   hn::And(column, hn::Set(i, EvidenceTable::kColumns - 1)));
-    const FloatLanes log_odds = hn::GatherIndex(f, frame.model, place);
+    const FloatLanes log_odds = hn::GatherIndex(f, params.model, place);
 
     const FloatLanes reach = hn::Set(f, EvidenceTable::kReachSigma);
     const FloatLanes inset = hn::Sub(entry, hn::Sub(centre, half));
-    Said said;
-    said.log_odds =
+    SampleEvidence result;
+    result.log_odds =
         hn::Mul(hn::Mul(log_odds, readings.share), reaching(hn::Sub(reach, entry), inset, narrow));
-    return said;
+    return result;
   }
 };
 
@@ -194,13 +195,13 @@ struct PassedSlice {
   using OfFace = CentreOfFace;
   static constexpr bool kHolds = false;
 
-  HWY_INLINE static Said says(const FrameInView& frame, const DepthMeanTiles& tiles,
-                              const Sample& s, const OfFace&, const FaceSample&) {
+  HWY_INLINE static SampleEvidence evaluate(const KernelParams& params, const DepthMeanTiles& tiles,
+                                            const Sample& s, const OfFace&, const FaceSample&) {
     constexpr Floats f;
     const FloatLanes share = share_of(hn::GatherIndex(Ints(), tiles.words, s.tile));
-    Said said;
-    said.log_odds = hn::Mul(share, hn::Set(f, frame.free_log_odds));
-    return said;
+    SampleEvidence result;
+    result.log_odds = hn::Mul(share, hn::Set(f, params.free_log_odds));
+    return result;
   }
 };
 

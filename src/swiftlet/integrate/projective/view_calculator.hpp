@@ -13,8 +13,8 @@
 namespace swiftlet {
 
 /// The cubes of 4 x 4 x 4 blocks of a window that a frame says something about, nearest first. Most
-/// of a window is not in view: cubes are judged before their blocks.
-class ViewCubes {
+/// of a window is not in view: cubes are looked at before their blocks.
+class ViewCalculator {
  public:
   /// Allocates only while windows grow.
   void find(const BlockWindow& window, const CubeView& view, const FrameEvidence& frame);
@@ -24,44 +24,47 @@ class ViewCubes {
   [[nodiscard]] std::size_t blocks_of(std::size_t cube) const {
     return cubes_[cube].blocks.block_count();
   }
-  /// Calls visit(BlockIndex, Verdict) for the blocks of a cube that the frame says something about.
+  /// Calls visit(BlockIndex, UpdateType) for the blocks of a cube that the frame says something
+  /// about.
   template <class Visit>
   void for_each_block(std::size_t cube, const CubeView& view, const FrameEvidence& frame,
                       Visit&& visit) const {
-    const Cube& c = cubes_[cube];
+    const FrustumBlocks& c = cubes_[cube];
     const CubeInView whole = view.cube(first_voxel(c.blocks.first), kCube * kBlockEdge);
-    JudgedHalves halves, blocks;
-    frame.judge_halves(whole, kCube / 2 * kBlockEdge, c.verdict, halves);
+    OctantUpdates octants, blocks;
+    frame.intersect_octants(whole, kCube / 2 * kBlockEdge, c.type, octants);
     for (int i = 0; i < 8; ++i) {
       const auto half = static_cast<std::size_t>(i);
-      const Verdict verdict = halves.verdicts[half];
-      if (verdict == Verdict::kNothing) continue;
-      frame.judge_halves(halves.cubes[half], kBlockEdge, verdict, blocks);
+      const UpdateType type = octants.types[half];
+      if (type == UpdateType::kUnobserved) continue;
+      frame.intersect_octants(octants.cubes[half], kBlockEdge, type, blocks);
       for (int k = 0; k < 8; ++k) {
         const BlockIndex place{2 * (i & 1) + (k & 1), (i & 2) + ((k >> 1) & 1),
                                2 * (i >> 2) + (k >> 2)};
         const BlockIndex index{c.blocks.first.x + place.x, c.blocks.first.y + place.y,
                                c.blocks.first.z + place.z};
-        const Verdict of_block = blocks.verdicts[static_cast<std::size_t>(k)];
-        if (of_block != Verdict::kNothing && c.blocks.contains(index)) visit(index, of_block);
+        const UpdateType of_block = blocks.types[static_cast<std::size_t>(k)];
+        if (of_block != UpdateType::kUnobserved && c.blocks.contains(index)) visit(index, of_block);
       }
     }
   }
 
-  [[nodiscard]] std::size_t memory_bytes() const { return cubes_.capacity() * sizeof(Cube); }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return cubes_.capacity() * sizeof(FrustumBlocks);
+  }
 
  private:
   static constexpr std::int32_t kCube = 4;  // blocks
 
-  struct Cube {
+  struct FrustumBlocks {
     BlockWindow blocks;  // of the window
-    Verdict verdict;
+    UpdateType type;
     float distance2_m2;  // of its middle, from the camera
   };
   void find_in_row(BlockIndex b, const BlockIndex& end, const CubeView& view,
                    const FrameEvidence& frame);
 
-  std::vector<Cube> cubes_;
+  std::vector<FrustumBlocks> cubes_;
 };
 
 }  // namespace swiftlet

@@ -12,17 +12,17 @@
 namespace swiftlet {
 
 /// What a frame can say about a cube of cells.
-enum class Verdict : std::uint8_t {
-  kNothing,  ///< out of view, without readings, or hidden behind them
-  kFree,     ///< every pixel of its image has a reading that passes it
-  kSeen,     ///< every reading of its image passes it; some pixels have none
-  kMixed,    ///< may hold a surface, or is too near to tell
+enum class UpdateType : std::uint8_t {
+  kUnobserved,        ///< out of view, without readings, or hidden behind them
+  kFree,              ///< every pixel of its image has a reading that passes it
+  kFreeOrUnobserved,  ///< every reading of its image passes it; some pixels have none
+  kPossiblyOccupied,  ///< may hold a surface, or is too near to tell
 };
 
 /// Nearer than so many cells, the formula for the area of a cell's image is too rough.
 inline constexpr float kNearCells = 4.0F;
 
-/// Cubes of one size that are judged together.
+/// Cubes of one size that are looked at together.
 struct CubeBatch {
   static constexpr std::size_t kMost = 16;
 
@@ -37,11 +37,11 @@ struct CubeBatch {
     ++count;
   }
 };
-using Verdicts = std::array<Verdict, CubeBatch::kMost>;
+using UpdateTypes = std::array<UpdateType, CubeBatch::kMost>;
 
-/// Judges each cube by the readings of the rectangle that its bounding box covers in the image.
-/// The same verdicts on all instruction sets.
-void judge_cubes(const FrameInView& frame, const DepthRangeTiles& tiles, const CubeBatch& cubes,
-                 Verdicts& verdicts);
+/// Types each cube by the readings of the rectangle that its bounding box covers in the image.
+/// The same types on all instruction sets.
+void intersect_cubes(const KernelParams& params, const DepthRangeTiles& tiles,
+                     const CubeBatch& cubes, UpdateTypes& types);
 
 }  // namespace swiftlet

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/projective/view_cubes.hpp"
+#include "swiftlet/integrate/projective/view_calculator.hpp"
 
 namespace swiftlet {
 
-void ViewCubes::find(const BlockWindow& window, const CubeView& view, const FrameEvidence& frame) {
+void ViewCalculator::find(const BlockWindow& window, const CubeView& view,
+                          const FrameEvidence& frame) {
   cubes_.clear();
   const BlockIndex end = window.end();
   BlockIndex b;
@@ -16,11 +17,11 @@ void ViewCubes::find(const BlockWindow& window, const CubeView& view, const Fram
         find_in_row(b, {std::min(b.x + kRow, end.x), end.y, end.z}, view, frame);
     }
   }
-  std::ranges::sort(cubes_, {}, &Cube::distance2_m2);
+  std::ranges::sort(cubes_, {}, &FrustumBlocks::distance2_m2);
 }
 
-void ViewCubes::find_in_row(BlockIndex b, const BlockIndex& end, const CubeView& view,
-                            const FrameEvidence& frame) {
+void ViewCalculator::find_in_row(BlockIndex b, const BlockIndex& end, const CubeView& view,
+                                 const FrameEvidence& frame) {
   CubeBatch batch;
   std::array<CubeInView, CubeBatch::kMost> cubes;
   const std::int32_t first = b.x;
@@ -30,15 +31,15 @@ void ViewCubes::find_in_row(BlockIndex b, const BlockIndex& end, const CubeView&
     cubes[batch.count] = cube;
     batch.add(cube.p_camera);
   }
-  Verdicts verdicts;
-  frame.judge(batch, verdicts);
+  UpdateTypes types;
+  frame.intersect(batch, types);
   b.x = first;
   for (std::size_t i = 0; i < batch.count; ++i, b.x += kCube) {
-    if (verdicts[i] == Verdict::kNothing) continue;
+    if (types[i] == UpdateType::kUnobserved) continue;
     const BlockIndex size{std::min(kCube, end.x - b.x), std::min(kCube, end.y - b.y),
                           std::min(kCube, end.z - b.z)};
     const Float3& p = cubes[i].p_world;
-    cubes_.push_back({{b, size}, verdicts[i], dot(p, p)});
+    cubes_.push_back({{b, size}, types[i], dot(p, p)});
   }
 }
 
