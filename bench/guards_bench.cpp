@@ -63,7 +63,7 @@ void ghosts(benchmark::State& state) {
   DepthRangePyramid pyramid;
   pyramid.build(depth.raw);
   const DepthView view{depth, pyramid, frame.intrinsics, frame.T_world_camera, 0};
-  GhostDecay decay(2.0);
+  OccupancyDecay decay(2.0);
   Stamp now;
   for (auto _ : state) {
     now = now + std::chrono::milliseconds(130);  // so that every look is taken

@@ -86,7 +86,7 @@ TEST(MapperConfig, every_parameter_changes_some_output) {
   for (const std::string& key : keys) {
     if (key == "integrate.threads" || key == "integrate.max_frame_ms") continue;
     if (key.starts_with("quality.")) continue;  // tests/pipeline/frame_gate_test.cpp
-    if (key == "integrate.decay_s") continue;   // tests/pipeline/ghost_decay_test.cpp
+    if (key == "integrate.decay_s") continue;   // tests/pipeline/occupancy_decay_test.cpp
     if (key == "map.on_new_world") continue;    // tests/pipeline/new_world_test.cpp
     if (key == "map.lookahead_s") continue;     // tests/pipeline/lookahead_test.cpp
     MapperConfig config = base_config();

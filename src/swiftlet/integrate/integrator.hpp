@@ -26,7 +26,7 @@ struct IntegrateOptions {
   std::string ray_method = "voxel_traversal";
   double logodds_per_step = 0.04;  ///< one step of a cell's byte, so +-127 steps are +-5.08
   int threads = 1;                 ///< of the projective integrator; same map bits for any number
-  double decay_s = 0.0;            ///< see GhostDecay; 0: never
+  double decay_s = 0.0;            ///< see OccupancyDecay; 0: never
   double max_frame_ms = 0.0;  ///< far blocks wait for the next frame once this is over; 0: never
 };
 

@@ -34,9 +34,9 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
       gate_(std::make_unique<FrameGate>(config.quality)),
       conditioner_(std::move(conditioner)),
       integrator_(std::move(integrator)) {
-  if (config.integrate.fusion != kThesisFusion) thin_ = std::make_unique<ThinHits>();
+  if (config.integrate.fusion != kThesisFusion) thin_ = std::make_unique<ThinObstacleFilter>();
   if (config.integrate.decay_s > 0.0)
-    decay_ = std::make_unique<GhostDecay>(config.integrate.decay_s);
+    decay_ = std::make_unique<OccupancyDecay>(config.integrate.decay_s);
   if (config.window.lookahead_s > 0.0)
     lookahead_ = std::make_unique<Lookahead>(config.window, config.map);
 }
@@ -44,7 +44,7 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
 void Mapper::begin_world(std::uint32_t pose_epoch) {
   map_.clear();
   *gate_ = FrameGate(config_.quality);
-  if (decay_) *decay_ = GhostDecay(config_.integrate.decay_s);
+  if (decay_) *decay_ = OccupancyDecay(config_.integrate.decay_s);
   frame_count_ = 0;  // rounding draws from it
   pose_epoch_ = pose_epoch;
   map_.publish(frame_count_);

@@ -10,8 +10,8 @@
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/integrate/integrator.hpp"
-#include "swiftlet/integrate/upkeep/ghost_decay.hpp"
-#include "swiftlet/integrate/upkeep/thin_hits.hpp"
+#include "swiftlet/integrate/upkeep/occupancy_decay.hpp"
+#include "swiftlet/integrate/upkeep/thin_obstacle_filter.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/pipeline/frame_gate.hpp"
 #include "swiftlet/pipeline/lookahead.hpp"
@@ -88,8 +88,8 @@ class Mapper {
   Conditioner conditioner_;
   DepthRangePyramid pyramid_;
   std::unique_ptr<Integrator> integrator_;
-  std::unique_ptr<ThinHits> thin_;     // null: with the thesis's rule
-  std::unique_ptr<GhostDecay> decay_;  // null: never
+  std::unique_ptr<ThinObstacleFilter> thin_;  // null: with the thesis's rule
+  std::unique_ptr<OccupancyDecay> decay_;     // null: never
   /// Null: the window stays around the vehicle.
   std::unique_ptr<Lookahead> lookahead_;
   std::uint64_t frame_count_ = 0;

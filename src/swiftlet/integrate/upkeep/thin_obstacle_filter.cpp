@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/upkeep/thin_hits.hpp"
+#include "swiftlet/integrate/upkeep/thin_obstacle_filter.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -15,12 +15,12 @@ constexpr int kTile = DepthRangePyramid::kTile << kLevel;
 
 }  // namespace
 
-ThinHits::ThinHits()
+ThinObstacleFilter::ThinObstacleFilter()
     : image_(static_cast<int>(RidgeLimits::kMostReach_px) + kTile), slots_(kSlots) {
   touched_.reserve(kMostCells);
 }
 
-void ThinHits::add(const VoxelIndex& cell, const RollingMap& map) {
+void ThinObstacleFilter::add(const VoxelIndex& cell, const RollingMap& map) {
   std::size_t place = VoxelHash{}(cell) & (kSlots - 1);
   while (slots_[place].frame == frame_ && slots_[place].cell != cell)
     place = (place + 1) & (kSlots - 1);
@@ -33,7 +33,8 @@ void ThinHits::add(const VoxelIndex& cell, const RollingMap& map) {
   ++slot.hits;
 }
 
-bool ThinHits::may_have_ridge(const DepthRangeTiles& tiles, int tile_u, int tile_v) const {
+bool ThinObstacleFilter::may_have_ridge(const DepthRangeTiles& tiles, int tile_u,
+                                        int tile_v) const {
   const std::int32_t* words = tiles.words + tiles.first[kLevel];
   const int width = tiles.width[kLevel];
   const int height = (tiles.first[kLevel + 1] - tiles.first[kLevel]) / width;
@@ -53,7 +54,7 @@ bool ThinHits::may_have_ridge(const DepthRangeTiles& tiles, int tile_u, int tile
   return false;
 }
 
-void ThinHits::collect(const DepthView& view, const RollingMap& map) {
+void ThinObstacleFilter::collect(const DepthView& view, const RollingMap& map) {
   ++frame_;
   touched_.clear();
   const ConditionedDepth& depth = view.depth;
@@ -72,8 +73,8 @@ void ThinHits::collect(const DepthView& view, const RollingMap& map) {
   }
 }
 
-void ThinHits::collect_tile(const DepthView& view, const DepthRangeTiles& tiles, int tile_u,
-                            int tile_v, const RollingMap& map) {
+void ThinObstacleFilter::collect_tile(const DepthView& view, const DepthRangeTiles& tiles,
+                                      int tile_u, int tile_v, const RollingMap& map) {
   static_assert(RidgeTile::kEdge == kTile);
   const int tile = tiles.first[kLevel] + tile_v * tiles.width[kLevel] + tile_u;
   const int reach = limits_.reach_px(tiles.words[tile] & 0xfffe);
@@ -85,7 +86,7 @@ void ThinHits::collect_tile(const DepthView& view, const DepthRangeTiles& tiles,
   }
 }
 
-void ThinHits::add_reading(const DepthView& view, int u, int v, const RollingMap& map) {
+void ThinObstacleFilter::add_reading(const DepthView& view, int u, int v, const RollingMap& map) {
   const PixelOrigin pixel = view.depth.origin_of(u, v);
   const double z_m = double{view.depth.unit_m} * view.depth.raw.at(u, v);
   const Eigen::Vector3d p_world =
@@ -94,7 +95,7 @@ void ThinHits::add_reading(const DepthView& view, int u, int v, const RollingMap
   if (map.window().contains(block_of(cell))) add(cell, map);
 }
 
-std::size_t ThinHits::protect(RollingMap& map) {
+std::size_t ThinObstacleFilter::protect(RollingMap& map) {
   std::size_t raised = 0;
   for (const std::uint32_t place : touched_) {
     const Slot& slot = slots_[place];

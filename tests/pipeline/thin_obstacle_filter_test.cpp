@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/upkeep/thin_hits.hpp"
+#include "swiftlet/integrate/upkeep/thin_obstacle_filter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ Occupancy claim(const Mapper& mapper, const VoxelIndex& v) {
   return mapper.config().occupancy.classify(mapper.map().log_odds(v));
 }
 
-TEST(ThinHits, keep_a_rod_that_the_mean_of_all_rays_erases) {
+TEST(ThinObstacleFilter, keep_a_rod_that_the_mean_of_all_rays_erases) {
   Mapper thesis = mapper_with("thesis"), guarded = mapper_with("guarded"),
          sharp = mapper_with("sharp");
   for (int i = 0; i < 20; ++i) {
@@ -49,7 +49,7 @@ TEST(ThinHits, keep_a_rod_that_the_mean_of_all_rays_erases) {
   }
 }
 
-TEST(ThinHits, notice_a_rod_in_space_that_was_surely_free_within_five_frames) {
+TEST(ThinObstacleFilter, notice_a_rod_in_space_that_was_surely_free_within_five_frames) {
   Mapper sharp = mapper_with("sharp");
   for (int i = 0; i < 20; ++i) sharp.integrate(rod_before_wall(false));
   ASSERT_EQ(claim(sharp, kRodCell), Occupancy::kFree);
@@ -58,14 +58,14 @@ TEST(ThinHits, notice_a_rod_in_space_that_was_surely_free_within_five_frames) {
   EXPECT_EQ(claim(sharp, kRodCell), Occupancy::kOccupied);
 }
 
-TEST(ThinHits, let_go_of_a_rod_that_has_gone) {
+TEST(ThinObstacleFilter, let_go_of_a_rod_that_has_gone) {
   Mapper sharp = mapper_with("sharp");
   for (int i = 0; i < 20; ++i) sharp.integrate(rod_before_wall(true));
   for (int i = 0; i < 10; ++i) sharp.integrate(rod_before_wall(false));
   EXPECT_EQ(claim(sharp, kRodCell), Occupancy::kFree);
 }
 
-TEST(ThinHits, find_nothing_thin_in_a_wall_nor_at_the_edge_of_something_wide) {
+TEST(ThinObstacleFilter, find_nothing_thin_in_a_wall_nor_at_the_edge_of_something_wide) {
   Frame frame = rod_before_wall(false);
   for (int v = 0; v < 100; ++v) {
     for (int u = 230; u < 400; ++u) frame.depth.raw.at(u, v) = 1000;
@@ -76,18 +76,18 @@ TEST(ThinHits, find_nothing_thin_in_a_wall_nor_at_the_edge_of_something_wide) {
   depth.raw = frame.depth.raw;
   DepthRangePyramid pyramid;
   pyramid.build(depth.raw);
-  ThinHits hits;
+  ThinObstacleFilter hits;
   hits.collect({depth, pyramid, frame.intrinsics, frame.T_world_camera, 0}, map);
   EXPECT_EQ(hits.protect(map), 0U);
 }
 
-TEST(ThinHits, never_make_more_of_the_map_than_it_holds) {
+TEST(ThinObstacleFilter, never_make_more_of_the_map_than_it_holds) {
   // Noise: everything looks thin. No more cells are kept than there is room for, none outside.
   test::Random random;
   const auto camera = PinholeIntrinsics::create(400, 300, 200, 200, 199.5, 149.5).value();
   auto map = RollingMap::create({.voxel_m = 0.02, .size_m = {4, 4, 4}}).value();
   map.recentre(Eigen::Vector3d::Zero(), nullptr);
-  ThinHits hits;
+  ThinObstacleFilter hits;
   DepthRangePyramid pyramid;
   for (int i = 0; i < 5; ++i) {
     Frame frame = test::wall_frame(camera, 1.0);
@@ -99,7 +99,7 @@ TEST(ThinHits, never_make_more_of_the_map_than_it_holds) {
     hits.collect({depth, pyramid, frame.intrinsics, frame.T_world_camera, 0}, map);
     const std::size_t raised = hits.protect(map);
     EXPECT_GT(raised, 0U);
-    EXPECT_LE(raised, ThinHits::kMostCells);
+    EXPECT_LE(raised, ThinObstacleFilter::kMostCells);
   }
 }
 

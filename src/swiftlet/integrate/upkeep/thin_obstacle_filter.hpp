@@ -22,13 +22,13 @@ namespace swiftlet {
 /// readings ends the frame no lower than kGain steps above where it began; one that shows none is
 /// left to the integrator, so what has gone is cleared as fast as ever. Real time: allocates
 /// nothing after construction. The same map bits on any number of threads.
-class ThinHits {
+class ThinObstacleFilter {
  public:
   static constexpr int kLeastHits = 3;
   static constexpr std::int32_t kGain = 60;
   static constexpr std::size_t kMostCells = 1U << 14;  ///< in one frame
 
-  ThinHits();
+  ThinObstacleFilter();
 
   /// Before the integrator: finds the ridges of a frame.
   void collect(const DepthView& view, const RollingMap& map);

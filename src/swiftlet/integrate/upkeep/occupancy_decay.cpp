@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/upkeep/ghost_decay.hpp"
+#include "swiftlet/integrate/upkeep/occupancy_decay.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -39,7 +39,7 @@ int pixel(float place, int size) {
 
 }  // namespace
 
-std::int32_t GhostDecay::steps_of(const Moment& moment) {
+std::int32_t OccupancyDecay::steps_of(const Moment& moment) {
   Clock& clock = clocks_[moment.camera];
   if (clock.last && moment.stamp > *clock.last) {
     const double share = std::min(seconds(moment.stamp - *clock.last) / decay_s_, kLongestShare);
@@ -54,8 +54,8 @@ std::int32_t GhostDecay::steps_of(const Moment& moment) {
 
 /// By the bounding box of the cube, rounded outwards to tiles that are at most half as wide as its
 /// image (or 4 pixels). Looks no further once a reading is nearer than `behind_m`.
-GhostDecay::Sight GhostDecay::look(const CubeView& view, const CubeInView& cube,
-                                   float behind_m) const {
+OccupancyDecay::Sight OccupancyDecay::look(const CubeView& view, const CubeInView& cube,
+                                           float behind_m) const {
   const float z_near = cube.z_near(), z_far = cube.z_far();
   if (z_near < 0.5F * view.voxel_m() || z_near > max_range_m_) return {};
   const auto place = [&](float edge, bool is_low, float focal, float centre) {
@@ -94,14 +94,14 @@ GhostDecay::Sight GhostDecay::look(const CubeView& view, const CubeInView& cube,
 }
 
 /// Whether some cell of a cube may show nothing.
-bool GhostDecay::may_show_nothing(const CubeView& view, const CubeInView& cube) const {
+bool OccupancyDecay::may_show_nothing(const CubeView& view, const CubeInView& cube) const {
   if (cube.z_far() <= 0.0F) return false;
   if (cube.z_near() < view.voxel_m()) return true;  // too near to tell
   const Sight sight = look(view, cube, 0.0F);
   return sight.is_in_view && sight.has_gaps;
 }
 
-bool GhostDecay::is_nothing_there(const CubeView& view, const CubeInView& cell) const {
+bool OccupancyDecay::is_nothing_there(const CubeView& view, const CubeInView& cell) const {
   const float z_m = cell.p_camera[2], z_far = cell.z_far();
   if (cell.z_near() < 0.5F * view.voxel_m() || z_far > max_range_m_) return false;
   const float behind_m = z_far + kBandSigma * sigma_per_z2_ * z_far * z_far;
@@ -118,8 +118,8 @@ bool GhostDecay::is_nothing_there(const CubeView& view, const CubeInView& cell) 
 }
 
 /// Takes steps off the cells of a block where nothing is. Returns how many.
-std::size_t GhostDecay::decay_block(const CubeView& view, const BlockIndex& index,
-                                    std::int32_t steps, RollingMap& map) const {
+std::size_t OccupancyDecay::decay_block(const CubeView& view, const BlockIndex& index,
+                                        std::int32_t steps, RollingMap& map) const {
   const VoxelBlock* known = map.find(index);
   const CubeInView whole = view.cube(first_voxel(index), kBlockEdge);
   if (!is_any_above_unknown(*known) || !may_show_nothing(view, whole)) return 0;
@@ -143,7 +143,7 @@ std::size_t GhostDecay::decay_block(const CubeView& view, const BlockIndex& inde
   return count;
 }
 
-std::size_t GhostDecay::apply(const DepthView& view, const Moment& moment, RollingMap& map) {
+std::size_t OccupancyDecay::apply(const DepthView& view, const Moment& moment, RollingMap& map) {
   const std::int32_t steps = steps_of(moment);
   if (steps == 0) return 0;
   pyramid_ = &view.pyramid;

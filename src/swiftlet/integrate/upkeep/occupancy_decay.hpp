@@ -28,10 +28,10 @@ namespace swiftlet {
 /// the stamps of each camera; one frame counts for a quarter of decay_s at most, so that no single
 /// drop-out clears anything. Real time: allocates only while images grow. The same bits on every
 /// machine and on any number of threads: it runs on one.
-class GhostDecay {
+class OccupancyDecay {
  public:
   /// REQUIRES: decay_s > 0.
-  explicit GhostDecay(double decay_s) : decay_s_(decay_s) {}
+  explicit OccupancyDecay(double decay_s) : decay_s_(decay_s) {}
 
   /// What there is to know of a frame besides its view.
   struct Moment {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/upkeep/ghost_decay.hpp"
+#include "swiftlet/integrate/upkeep/occupancy_decay.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ class Watched {
   Stamp now_;
 };
 
-TEST(GhostDecay, lets_go_of_what_has_left_within_its_time_and_not_before) {
+TEST(OccupancyDecay, lets_go_of_what_has_left_within_its_time_and_not_before) {
   Watched map(kDecay_s);
   map.show(half_a_wall(OnTheRight::kThing), 1.0);
   ASSERT_EQ(map.at(kThingCell), kOccupiedCell);
@@ -74,21 +74,21 @@ TEST(GhostDecay, lets_go_of_what_has_left_within_its_time_and_not_before) {
   EXPECT_EQ(map.at(kWallCell), kOccupiedCell) << "what is seen stays";
 }
 
-TEST(GhostDecay, switched_off_keeps_ghosts) {
+TEST(OccupancyDecay, switched_off_keeps_ghosts) {
   Watched map(0.0);
   map.show(half_a_wall(OnTheRight::kThing), 1.0);
   map.show(half_a_wall(OnTheRight::kNothing), 10.0);
   EXPECT_EQ(map.claim(kThingCell), Occupancy::kOccupied);
 }
 
-TEST(GhostDecay, keeps_what_is_hidden) {
+TEST(OccupancyDecay, keeps_what_is_hidden) {
   Watched map(kDecay_s);
   map.show(half_a_wall(OnTheRight::kThing), 1.0);
   map.show(half_a_wall(OnTheRight::kScreen), 5.0);
   EXPECT_EQ(map.at(kThingCell), kOccupiedCell);
 }
 
-TEST(GhostDecay, keeps_what_is_out_of_view_or_out_of_range) {
+TEST(OccupancyDecay, keeps_what_is_out_of_view_or_out_of_range) {
   Watched map(kDecay_s);
   map.show(half_a_wall(OnTheRight::kThing), 1.0);
   Frame away = half_a_wall(OnTheRight::kNothing);
@@ -119,7 +119,7 @@ TEST(GhostDecay, keeps_what_is_out_of_view_or_out_of_range) {
   EXPECT_EQ(shorter.at(kThingCell), kOccupiedCell) << "3.1 m from there: out of range";
 }
 
-TEST(GhostDecay, keeps_a_thing_of_which_every_third_reading_is_missing) {
+TEST(OccupancyDecay, keeps_a_thing_of_which_every_third_reading_is_missing) {
   test::Random random;
   Watched map(kDecay_s);
   map.show(half_a_wall(OnTheRight::kThing), 1.0);
@@ -131,7 +131,7 @@ TEST(GhostDecay, keeps_a_thing_of_which_every_third_reading_is_missing) {
   EXPECT_EQ(map.claim(kThingCell), Occupancy::kOccupied);
 }
 
-TEST(GhostDecay, one_frame_after_a_long_silence_clears_nothing) {
+TEST(OccupancyDecay, one_frame_after_a_long_silence_clears_nothing) {
   Watched map(kDecay_s);
   map.show(half_a_wall(OnTheRight::kThing), 1.0);
   map.wait(60.0);
@@ -139,7 +139,7 @@ TEST(GhostDecay, one_frame_after_a_long_silence_clears_nothing) {
   EXPECT_EQ(map.claim(kThingCell), Occupancy::kOccupied);
 }
 
-TEST(GhostDecay,
+TEST(OccupancyDecay,
      gives_the_same_bits_on_any_number_of_threads_and_for_both_integrators_the_same_law) {
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2, 3}) {
