@@ -7,10 +7,12 @@
 
 #include <benchmark/benchmark.h>
 
+#include <string>
 #include <vector>
 
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/integrate/integrator.hpp"
+#include "swiftlet/integrate/measurement_models.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace {
@@ -48,11 +50,12 @@ double voxel_of(const benchmark::State& state) {
   return 0.001 * static_cast<double>(state.range(0));
 }
 
-void integrate(benchmark::State& state, const char* name) {
+void integrate(benchmark::State& state, const char* name, std::string_view model_name) {
   const Flight& f = flight();
   if (f.frames.empty()) return state.SkipWithError("the simulated rig was not built");
   const double voxel_m = voxel_of(state);
   auto integrator = make_integrator({.integrator = name});
+  const auto model = find_measurement_model(model_name)->make();
   auto map = RollingMap::create({.voxel_m = voxel_m});
   DepthRangePyramid pyramid;
   std::size_t i = 0;
@@ -63,17 +66,29 @@ void integrate(benchmark::State& state, const char* name) {
     const StereoSensor sensor(frame.intrinsics, {}, voxel_m, 1);
     pyramid.build(depth.raw);
     const DepthView view{depth, pyramid, frame.intrinsics, frame.T_world_camera, i};
-    const auto tally = (*integrator)->integrate(view, sensor, *map);
+    const auto tally = (*integrator)->integrate(view, sensor, *model, *map);
     benchmark::DoNotOptimize(tally);
     ++i;
   }
   state.counters["map_MB"] = 1e-6 * static_cast<double>(map->memory_bytes());
 }
 
-void rays(benchmark::State& state) { integrate(state, "rays"); }
-void projective(benchmark::State& state) { integrate(state, "projective"); }
-
-BENCHMARK(projective)->Arg(200)->Arg(100)->Arg(50)->Unit(benchmark::kMillisecond)->Iterations(120);
-BENCHMARK(rays)->Arg(200)->Arg(100)->Arg(50)->Unit(benchmark::kMillisecond)->Iterations(30);
+/// Every integrator with every registered model.
+void declare_benchmarks() {
+  for (const auto& model : measurement_models()) {
+    for (const char* name : {"projective", "rays"}) {
+      const std::string title = std::string(name) + "/" + std::string(model.name);
+      const bool is_slow = std::string_view(name) == "rays";
+      benchmark::RegisterBenchmark(
+          title.c_str(), [=](benchmark::State& state) { integrate(state, name, model.name); })
+          ->Arg(200)
+          ->Arg(100)
+          ->Arg(50)
+          ->Unit(benchmark::kMillisecond)
+          ->Iterations(is_slow ? 30 : 120);
+    }
+  }
+}
+[[maybe_unused]] const bool kAreDeclared = (declare_benchmarks(), true);
 
 }  // namespace

@@ -146,7 +146,7 @@ TEST_F(Bench, wrong_usage_is_exit_code_2_and_told_before_any_frame_is_read) {
       {"--frames", "0"},     {"--frames", "many"}, {"--warm-up", "-1"}, {"--voxel", "0"},
       {"--voxel", "0.2,x"},  {"--voxel", "nan"},   {"--voxel", "20"},   {"--threads", "0"},
       {"--threads", "1,-2"}, {"--range", "0"},     {"--range", "nan"},  {"--magic"},
-      {"--fusion", "blunt"}};
+      {"--model", "blunt"},  {"--fusion", "blunt"}};
   for (std::vector<std::string> words : wrong) {
     words.insert(words.begin(), "7scenes:rec");
     const Ended ended = bench(words);
@@ -159,6 +159,14 @@ TEST_F(Bench, wrong_usage_is_exit_code_2_and_told_before_any_frame_is_read) {
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_THAT(second.err, HasSubstr("unknown source 'magic'"));
   EXPECT_THAT(second.err, Not(HasSubstr("reading frames")));
+}
+
+TEST_F(Bench, knows_the_names_of_the_version_before_and_tells_those_of_today) {
+  const Ended ended = bench({"7scenes:rec", "--voxel", "0.2", "--fusion", "thesis", "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("'--fusion' is called '--model' now"));
+  EXPECT_THAT(ended.err, HasSubstr("'thesis' is called 'inverse_sensor_model' now"));
+  EXPECT_THAT(ended.out, HasSubstr("inverse_sensor_model"));
 }
 
 TEST_F(Bench, fails_where_there_is_nothing_to_measure) {

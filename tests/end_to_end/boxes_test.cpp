@@ -24,7 +24,7 @@ constexpr int kCameraLayer = 0;
 
 Mapper map_scene(const char* address) {
   MapperConfig config;
-  config.integrate.fusion = kThesisFusion;  // whose experiments these are
+  config.integrate.model = kThesisModel;  // whose experiments these are
   config.depth.downsample = 1;
   auto mapper = Mapper::create(config);
   auto source = open_source(address);

@@ -38,12 +38,12 @@ std::size_t occupied_air(const Mapper& mapper) {
   return count;
 }
 
-Hall fly(double decay_s, const char* fusion) {
+Hall fly(double decay_s, const char* model) {
   MapperConfig config;
   config.map.voxel_m = 0.1;
   config.depth.max_range_m = 4.0;
   config.integrate.decay_s = decay_s;
-  config.integrate.fusion = fusion;
+  config.integrate.model = model;
   auto mapper = Mapper::create(config).value();
   auto source = open_source("sim:walker?rate=15").value();
   Hall hall;
@@ -62,11 +62,11 @@ Hall fly(double decay_s, const char* fusion) {
 }
 
 TEST(Walker, without_background_is_unknown_within_the_time_that_is_set) {
-  for (const char* fusion : {"thesis", "sharp"}) {
-    const Hall kept = fly(0.0, fusion), decayed = fly(kDecay_s, fusion);
-    EXPECT_GT(kept.after, 500U) << fusion << ": else there is nothing to decay";
-    EXPECT_GT(decayed.while_there, 50U) << fusion << ": he is seen";
-    EXPECT_EQ(decayed.after, 0U) << fusion;
+  for (const char* model : {"inverse_sensor_model", "precision_weighted"}) {
+    const Hall kept = fly(0.0, model), decayed = fly(kDecay_s, model);
+    EXPECT_GT(kept.after, 500U) << model << ": else there is nothing to decay";
+    EXPECT_GT(decayed.while_there, 50U) << model << ": he is seen";
+    EXPECT_EQ(decayed.after, 0U) << model;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "support/synthetic.hpp"
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/integrate/evidence_sums.hpp"
+#include "swiftlet/integrate/measurement_models.hpp"
 
 namespace swiftlet {
 namespace {
@@ -20,6 +21,7 @@ using test::Random;
 using test::ReferenceMapper;
 
 constexpr double kVoxel_m = 0.2;
+constexpr double kLogOddsPerStep = 0.04;
 
 RollingMap new_map() {
   auto map = RollingMap::create({.voxel_m = kVoxel_m, .size_m = {8, 8, 8}, .trigger_m = {1, 1, 1}});
@@ -53,9 +55,10 @@ IntegrationTally integrate(RollingMap& map, const Frame& frame, int ratio,
   DepthRangePyramid pyramid;
   pyramid.build(depth.raw);
   const StereoSensor sensor(frame.intrinsics, SensorOptions{}, kVoxel_m, depth.ratio);
+  const auto model = find_measurement_model("inverse_sensor_model")->make();
   return (*make_integrator(options))
       ->integrate({depth, pyramid, frame.intrinsics, frame.T_world_camera, frame_number}, sensor,
-                  map);
+                  *model, map);
 }
 
 // One frame from unknown: every cell must be the reference's real number, rounded up or down.
@@ -185,7 +188,7 @@ TEST(EvidenceSums, do_not_depend_on_the_order_of_the_evidence) {
   std::map<BlockIndex, VoxelBlock> first;
   for (int trial = 0; trial < 5; ++trial) {
     RollingMap map = new_map();
-    EvidenceSums sums;
+    EvidenceSums sums(kLogOddsPerStep);
     sums.begin(map.window());
     for (const auto& [voxel, steps] : evidence) sums.add(voxel, steps);
     sums.apply(7, map);
@@ -202,7 +205,7 @@ TEST(EvidenceSums, round_without_bias) {
     double total = 0.0;
     for (std::uint64_t frame = 0; frame < 400; ++frame) {
       RollingMap map = new_map();
-      EvidenceSums sums;
+      EvidenceSums sums(kLogOddsPerStep);
       sums.begin(map.window());
       for (int cell = 0; cell < kBlockVoxels; ++cell) {
         sums.add(voxel_at({0, 0, 0}, cell), static_cast<std::int32_t>(fraction * kOneStep));
@@ -214,38 +217,38 @@ TEST(EvidenceSums, round_without_bias) {
   }
 }
 
-TEST(EvidenceSums, take_a_held_cell_to_unknown_but_not_on_to_free) {
+TEST(EvidenceSums, take_a_cell_that_is_not_free_to_unknown_but_not_on_to_free) {
   auto map = RollingMap::create({}).value();
   map.recentre(Eigen::Vector3d::Zero(), nullptr);
-  const VoxelIndex held{0, 0, 0}, passed{1, 0, 0}, was_free{2, 0, 0};
+  const VoxelIndex not_free{0, 0, 0}, passed{1, 0, 0}, was_free{2, 0, 0};
   const auto start = [&](const VoxelIndex& v, QuantizedLogOdds value) {
     map.writable(block_of(v)).cells[offset_in_block(v)] = value;
   };
-  start(held, 200);
+  start(not_free, 200);
   start(passed, 200);
   start(was_free, 50);
-  EvidenceSums sums;
+  EvidenceSums sums(kLogOddsPerStep);
   for (std::uint64_t frame = 0; frame < 10; ++frame) {
     sums.begin(map.window());
-    for (const VoxelIndex& v : {held, passed, was_free}) {
+    for (const VoxelIndex& v : {not_free, passed, was_free}) {
       sums.add(v, static_cast<FixedSteps>(-20 * kOneStep));
-      sums.add_ends(v, v == passed ? -1 : 1);
+      sums.add_ends(v, v == passed ? -1.0 : 1.0);
     }
     sums.apply(frame, map);
   }
-  EXPECT_EQ(map.log_odds(held), kUnknownCell);
+  EXPECT_EQ(map.log_odds(not_free), kUnknownCell);
   EXPECT_EQ(map.log_odds(passed), kFreeCell);
-  EXPECT_EQ(map.log_odds(was_free), 50) << "what is held is not raised either";
+  EXPECT_EQ(map.log_odds(was_free), 50) << "what is not free is not raised either";
   sums.begin(map.window());
-  sums.add(held, static_cast<FixedSteps>(30 * kOneStep));
-  sums.add_ends(held, 1);
+  sums.add(not_free, static_cast<FixedSteps>(30 * kOneStep));
+  sums.add_ends(not_free, 1.0);
   sums.apply(10, map);
-  EXPECT_EQ(map.log_odds(held), kUnknownCell + 30);
+  EXPECT_EQ(map.log_odds(not_free), kUnknownCell + 30);
 }
 
 TEST(EvidenceSums, saturate_instead_of_wrapping) {
   RollingMap map = new_map();
-  EvidenceSums sums;
+  EvidenceSums sums(kLogOddsPerStep);
   for (std::uint64_t frame = 0; frame < 3; ++frame) {
     sums.begin(map.window());
     sums.add({1, 1, 1}, 100 << kStepFractionBits);

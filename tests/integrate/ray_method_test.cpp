@@ -27,7 +27,7 @@ constexpr double kTouch = 1e-9;
 
 /// Length [cells] of the segment inside one cell, by clipping against its six faces. Slow, simple,
 /// and no code of ours.
-double chord(const GridRay& ray, const VoxelIndex& v) {
+double intersection_length(const GridRay& ray, const VoxelIndex& v) {
   const Eigen::Vector3d d = ray.to - ray.from;
   const double low[3] = {double(v.x), double(v.y), double(v.z)};
   double t0 = 0.0, t1 = 1.0;
@@ -103,15 +103,16 @@ TEST_P(EveryRayMethod, visits_only_cells_of_the_box_that_the_segment_meets) {
       // Within rounding of the cell: widen it by moving the test to the nearest of the 27 cells
       // around.
       double best = -1.0;
-      for_each_voxel({{v.x - 1, v.y - 1, v.z - 1}, {v.x + 1, v.y + 1, v.z + 1}},
-                     [&](const VoxelIndex& n) { best = std::max(best, chord(ray, n)); });
-      ASSERT_GE(std::max(best, chord(ray, v)), 0.0);
+      for_each_voxel(
+          {{v.x - 1, v.y - 1, v.z - 1}, {v.x + 1, v.y + 1, v.z + 1}},
+          [&](const VoxelIndex& n) { best = std::max(best, intersection_length(ray, n)); });
+      ASSERT_GE(std::max(best, intersection_length(ray, v)), 0.0);
       if (GetParam().is_exact && (ray.to - ray.from).norm() > 1.0) {
         const bool is_an_end =
             v == voxel_containing(ray.from, 1.0) || v == voxel_containing(ray.to, 1.0);
         const bool is_on_the_rim = !kBox.contains(voxel_containing(ray.from, 1.0)) ||
                                    !kBox.contains(voxel_containing(ray.to, 1.0));
-        ASSERT_TRUE(chord(ray, v) > -kTouch || is_an_end || is_on_the_rim);
+        ASSERT_TRUE(intersection_length(ray, v) > -kTouch || is_an_end || is_on_the_rim);
       }
     }
   });
@@ -123,7 +124,7 @@ TEST_P(EveryRayMethod, visits_every_cell_the_segment_crosses_if_it_is_exact) {
     const auto visited = trace(GetParam().trace, ray);
     const std::set<VoxelIndex> set(visited.begin(), visited.end());
     for_each_voxel(kBox, [&](const VoxelIndex& v) {
-      if (chord(ray, v) > kTouch) {
+      if (intersection_length(ray, v) > kTouch) {
         ASSERT_TRUE(set.contains(v)) << v.x << " " << v.y << " " << v.z;
       }
     });
@@ -147,8 +148,10 @@ TEST_P(EveryRayMethod, visits_the_same_cells_in_reverse_if_it_is_exact) {
     const auto there = trace(GetParam().trace, ray);
     const auto back = trace(GetParam().trace, {ray.to, ray.from});
     const std::set<VoxelIndex> a(there.begin(), there.end()), b(back.begin(), back.end());
-    for (const VoxelIndex& v : a) ASSERT_TRUE(b.contains(v) || chord(ray, v) <= kTouch);
-    for (const VoxelIndex& v : b) ASSERT_TRUE(a.contains(v) || chord(ray, v) <= kTouch);
+    for (const VoxelIndex& v : a)
+      ASSERT_TRUE(b.contains(v) || intersection_length(ray, v) <= kTouch);
+    for (const VoxelIndex& v : b)
+      ASSERT_TRUE(a.contains(v) || intersection_length(ray, v) <= kTouch);
   });
 }
 
@@ -199,10 +202,11 @@ TEST_P(EveryRayMethod, is_right_far_from_the_origin) {
     const VoxelBox box{{at.x - 5, at.y - 5, at.z - 5}, {at.x + 5, at.y + 5, at.z + 5}};
     const auto visited = trace(GetParam().trace, far_ray, box);
     const std::set<VoxelIndex> set(visited.begin(), visited.end());
-    for (const VoxelIndex& v : visited) ASSERT_GT(chord(far_ray, v), -1e-6) << random.repeat();
+    for (const VoxelIndex& v : visited)
+      ASSERT_GT(intersection_length(far_ray, v), -1e-6) << random.repeat();
     if (!GetParam().is_exact) continue;
     for_each_voxel(box, [&](const VoxelIndex& v) {
-      if (chord(far_ray, v) > 1e-6) {
+      if (intersection_length(far_ray, v) > 1e-6) {
         ASSERT_TRUE(set.contains(v)) << random.repeat();
       }
     });

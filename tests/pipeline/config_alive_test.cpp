@@ -60,7 +60,7 @@ void change(const ConfigField&, Eigen::Vector3d& value) { value *= 0.6; }
 void change(const ConfigField& field, std::string& value) {
   if (field.key == "integrate.ray_method") value = "line_drawing";
   if (field.key == "integrate.integrator") value = "projective";
-  if (field.key == "integrate.fusion") value = "sharp";
+  if (field.key == "integrate.model") value = "precision_weighted";
 }
 void change(const ConfigField&, std::vector<std::string>& value) { value.pop_back(); }
 
@@ -68,7 +68,7 @@ MapperConfig base_config() {
   MapperConfig config;
   config.depth.downsample = 4;
   config.integrate.integrator = "rays";  // reads ray_method; the parameters below are the other's
-  config.integrate.fusion = "thesis";    // reads importance_m and p_max
+  config.integrate.model = "inverse_sensor_model";  // reads importance_m and p_max
   config.depth.min_range_m = 0.4;
   config.depth.distortion = {0.05, 0.08, 0.1, 0.1, 0.1};
   config.map.size_m = {16.0, 16.0, 6.0};  // 0.6 of it must lie in fewer blocks and still be allowed
@@ -110,12 +110,12 @@ TEST(MapperConfig, threads_change_no_output_and_a_deadline_does) {
 
 TEST(MapperConfig, sharp_fusion_smooths_behind_the_range_gate) {
   MapperConfig config;
-  config.integrate.fusion = "sharp";
+  config.integrate.model = "precision_weighted";
   EXPECT_EQ(config.conditioning().steps,
             (std::vector<std::string>{"distortion", "range_gate", "smooth", "near_downsample"}));
-  config.integrate.fusion = "blunt";
+  config.integrate.model = "blunt";
   ASSERT_EQ(config.faults().size(), 1U);
-  EXPECT_EQ(config.faults().front().where, "integrate.fusion");
+  EXPECT_EQ(config.faults().front().where, "integrate.model");
 }
 
 TEST(MapperConfig, numbers_of_distortion_that_no_step_reads_are_a_fault) {

@@ -14,12 +14,14 @@
 namespace swiftlet {
 namespace {
 
+constexpr const char* kInverse = "inverse_sensor_model";
+
 struct Case {
   const char* name;
   const char* integrator;
   const char* ray_method;
   int downsample;
-  const char* fusion;
+  const char* model;
   std::uint64_t hash;
 };
 
@@ -31,7 +33,7 @@ TEST_P(MapBitsOf, are_those_of_every_machine) {
   config.integrate.integrator = GetParam().integrator;
   config.integrate.ray_method = GetParam().ray_method;
   config.depth.downsample = GetParam().downsample;
-  config.integrate.fusion = GetParam().fusion;
+  config.integrate.model = GetParam().model;
   auto mapper = Mapper::create(config);
   ASSERT_TRUE(mapper);
   test::Random random(11);
@@ -45,13 +47,16 @@ TEST_P(MapBitsOf, are_those_of_every_machine) {
 INSTANTIATE_TEST_SUITE_P(
     Integrators, MapBitsOf,
     ::testing::Values(
-        Case{"every_pixel", "projective", "voxel_traversal", 1, "thesis", 0xe227b995d95ed055U},
-        Case{"nearest_of_4_x_4", "projective", "voxel_traversal", 4, "thesis", 0xb9b711321d27e3f3U},
-        Case{"voxel_traversal", "rays", "voxel_traversal", 1, "thesis", 0x2fac9742b058cfb2U},
-        Case{"line_drawing", "rays", "line_drawing", 1, "thesis", 0xc99587e92dccb4dbU},
-        Case{"guarded", "projective", "voxel_traversal", 1, "guarded", 0xdc6603ef0c598542U},
-        Case{"sharp", "projective", "voxel_traversal", 1, "sharp", 0xb6ed84f49341dcefU},
-        Case{"sharp_rays", "rays", "voxel_traversal", 1, "sharp", 0xcbc81c93719d509cU}),
+        Case{"every_pixel", "projective", "voxel_traversal", 1, kInverse, 0xe227b995d95ed055U},
+        Case{"nearest_of_4_x_4", "projective", "voxel_traversal", 4, kInverse, 0xb9b711321d27e3f3U},
+        Case{"voxel_traversal", "rays", "voxel_traversal", 1, kInverse, 0x2fac9742b058cfb2U},
+        Case{"line_drawing", "rays", "line_drawing", 1, kInverse, 0xc99587e92dccb4dbU},
+        Case{"thin_obstacle_preserving", "projective", "voxel_traversal", 1,
+             "thin_obstacle_preserving", 0xdc6603ef0c598542U},
+        Case{"precision_weighted", "projective", "voxel_traversal", 1, "precision_weighted",
+             0xb6ed84f49341dcefU},
+        Case{"precision_weighted_rays", "rays", "voxel_traversal", 1, "precision_weighted",
+             0xcbc81c93719d509cU}),
     [](const auto& test) { return std::string(test.param.name); });
 
 /// With what comes before and after the integrator: the depths of a bent camera straightened, and

@@ -10,6 +10,7 @@
 
 #include "support/allocations.hpp"
 #include "support/synthetic.hpp"
+#include "swiftlet/integrate/measurement_models.hpp"
 #include "swiftlet/query/occupancy_query.hpp"
 
 namespace swiftlet {
@@ -91,12 +92,12 @@ TEST(Mapper, refuses_frames_it_cannot_use_and_leaves_the_map_alone) {
 // buffer has met its largest frame.
 TEST(Mapper, allocates_nothing_after_warm_up_even_when_the_window_moves_and_readers_follow) {
   Random random;
-  const auto expect_none = [&](std::string_view integrator, std::string_view fusion) {
+  const auto expect_none = [&](std::string_view integrator, std::string_view model) {
     MapperConfig config;
     config.depth.downsample = 2;
     config.map.size_m = {6, 6, 4};
     config.integrate.integrator = integrator;
-    config.integrate.fusion = fusion;
+    config.integrate.model = model;
     config.integrate.decay_s = 0.5;
     config.depth.distortion = {0.01, 0.01, 0.0, 0.0, 0.0};
     config.quality.max_at_one_value = 0.9;
@@ -127,13 +128,12 @@ TEST(Mapper, allocates_nothing_after_warm_up_even_when_the_window_moves_and_read
     }
     const std::size_t made = allocations.so_far();
     EXPECT_GT(decayed, 0U);
-    EXPECT_EQ(made, 0U) << integrator << ", " << fusion;
+    EXPECT_EQ(made, 0U) << integrator << ", " << model;
     EXPECT_GT(shifts, 5U);
     EXPECT_TRUE(reader.latest());
   };
   for (const auto& integrator : integrators()) {
-    for (const auto fusion : {kThesisFusion, kGuardedFusion, kSharpFusion})
-      expect_none(integrator.name, fusion);
+    for (const auto& model : measurement_models()) expect_none(integrator.name, model.name);
   }
 }
 

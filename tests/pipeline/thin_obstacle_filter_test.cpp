@@ -26,9 +26,9 @@ Frame rod_before_wall(bool has_rod) {
 const VoxelIndex kRodCell{5, -1, 0};
 const VoxelIndex kBeside{5, 0, 0};
 
-Mapper mapper_with(const char* fusion) {
+Mapper mapper_with(const char* model) {
   MapperConfig config;
-  config.integrate.fusion = fusion;
+  config.integrate.model = model;
   return Mapper::create(config).value();
 }
 
@@ -37,32 +37,34 @@ Occupancy claim(const Mapper& mapper, const VoxelIndex& v) {
 }
 
 TEST(ThinObstacleFilter, keep_a_rod_that_the_mean_of_all_rays_erases) {
-  Mapper thesis = mapper_with("thesis"), guarded = mapper_with("guarded"),
-         sharp = mapper_with("sharp");
+  Mapper plain = mapper_with("inverse_sensor_model"),
+         preserving = mapper_with("thin_obstacle_preserving"),
+         weighted = mapper_with("precision_weighted");
   for (int i = 0; i < 20; ++i) {
-    for (Mapper* mapper : {&thesis, &guarded, &sharp}) mapper->integrate(rod_before_wall(true));
+    for (Mapper* mapper : {&plain, &preserving, &weighted})
+      mapper->integrate(rod_before_wall(true));
   }
-  EXPECT_EQ(claim(thesis, kRodCell), Occupancy::kFree);
-  for (const Mapper* mapper : {&guarded, &sharp}) {
+  EXPECT_EQ(claim(plain, kRodCell), Occupancy::kFree);
+  for (const Mapper* mapper : {&preserving, &weighted}) {
     EXPECT_EQ(claim(*mapper, kRodCell), Occupancy::kOccupied);
     EXPECT_EQ(claim(*mapper, kBeside), Occupancy::kFree);
   }
 }
 
 TEST(ThinObstacleFilter, notice_a_rod_in_space_that_was_surely_free_within_five_frames) {
-  Mapper sharp = mapper_with("sharp");
-  for (int i = 0; i < 20; ++i) sharp.integrate(rod_before_wall(false));
-  ASSERT_EQ(claim(sharp, kRodCell), Occupancy::kFree);
+  Mapper weighted = mapper_with("precision_weighted");
+  for (int i = 0; i < 20; ++i) weighted.integrate(rod_before_wall(false));
+  ASSERT_EQ(claim(weighted, kRodCell), Occupancy::kFree);
   // From 0 to 180 in steps of kGain.
-  for (int i = 0; i < 5; ++i) sharp.integrate(rod_before_wall(true));
-  EXPECT_EQ(claim(sharp, kRodCell), Occupancy::kOccupied);
+  for (int i = 0; i < 5; ++i) weighted.integrate(rod_before_wall(true));
+  EXPECT_EQ(claim(weighted, kRodCell), Occupancy::kOccupied);
 }
 
 TEST(ThinObstacleFilter, let_go_of_a_rod_that_has_gone) {
-  Mapper sharp = mapper_with("sharp");
-  for (int i = 0; i < 20; ++i) sharp.integrate(rod_before_wall(true));
-  for (int i = 0; i < 10; ++i) sharp.integrate(rod_before_wall(false));
-  EXPECT_EQ(claim(sharp, kRodCell), Occupancy::kFree);
+  Mapper weighted = mapper_with("precision_weighted");
+  for (int i = 0; i < 20; ++i) weighted.integrate(rod_before_wall(true));
+  for (int i = 0; i < 10; ++i) weighted.integrate(rod_before_wall(false));
+  EXPECT_EQ(claim(weighted, kRodCell), Occupancy::kFree);
 }
 
 TEST(ThinObstacleFilter, find_nothing_thin_in_a_wall_nor_at_the_edge_of_something_wide) {

@@ -14,6 +14,7 @@
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/integrate/integrator.hpp"
+#include "swiftlet/integrate/measurement_models.hpp"
 #include "swiftlet/integrate/rays/ray_method.hpp"
 
 namespace swiftlet::test {
@@ -61,25 +62,27 @@ struct Agreement {
 class AgreementCheck {
  public:
   AgreementCheck(double voxel_m, const Eigen::Vector3d& size_m, const Eigen::Vector3d& middle_m,
-                 double max_range_m, double baseline_m = 0.05, CellShape shape = CellShape::kSlice)
+                 double max_range_m, double baseline_m = 0.05,
+                 std::string_view model = "inverse_sensor_model")
       : candidate_map_(new_map(voxel_m, size_m, middle_m)),
         reference_map_(new_map(voxel_m, size_m, middle_m)),
         candidate_(*make_integrator({.integrator = "projective"})),
         reference_(*make_integrator({.integrator = "rays"})),
+        candidate_model_(find_measurement_model(model)->make()),
+        reference_model_(find_measurement_model(model)->make()),
         conditioner_(*Conditioner::create({.max_range_m = max_range_m, .downsample = 1})),
         options_{.baseline_m = baseline_m, .model = {}},
-        shape_(shape),
         trace_(find_ray_method("voxel_traversal")->trace),
         box_(voxel_box(reference_map_.window())),
         observations_(reference_map_.window().block_count() * kBlockVoxels) {}
 
   void add(const Frame& frame) {
     const ConditionedDepth& depth = conditioner_.clean(frame.depth, frame.intrinsics, 0.004);
-    const StereoSensor sensor(frame.intrinsics, options_, candidate_map_.voxel_m(), 1, shape_);
+    const StereoSensor sensor(frame.intrinsics, options_, candidate_map_.voxel_m(), 1);
     pyramid_.build(depth.raw);
     const DepthView view{depth, pyramid_, frame.intrinsics, frame.T_world_camera, frames_++};
-    const auto a = candidate_->integrate(view, sensor, candidate_map_);
-    const auto b = reference_->integrate(view, sensor, reference_map_);
+    const auto a = candidate_->integrate(view, sensor, *candidate_model_, candidate_map_);
+    const auto b = reference_->integrate(view, sensor, *reference_model_, reference_map_);
     EXPECT_EQ(a.readings, b.readings);
     count_rays(view, sensor);
   }
@@ -142,10 +145,10 @@ class AgreementCheck {
 
   RollingMap candidate_map_, reference_map_;
   std::unique_ptr<Integrator> candidate_, reference_;
+  MeasurementModelPtr candidate_model_, reference_model_;
   Conditioner conditioner_;
   DepthRangePyramid pyramid_;
   SensorOptions options_;
-  CellShape shape_;
   TraceRay trace_;
   VoxelBox box_;
   std::vector<float> observations_;  // of all frames: each ray counts DW

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "swiftlet/base/nearest_name.hpp"
+#include "swiftlet/config/config_aliases.hpp"
 #include "swiftlet/config/config_value_private.hpp"
 #include "swiftlet/file/file_content.hpp"
 #include "swiftlet/file/yaml_document_private.hpp"
@@ -83,6 +84,22 @@ Error unknown_key(const Setting& setting) {
                        : "'swiftlet list parameters' tells which there are");
 }
 
+/// The setting by the names of today.
+Setting renamed(Setting setting, Faults& warnings) {
+  const auto rename = [&](const std::string& before, std::string_view now) {
+    if (before == now) return false;
+    warnings.push_back(renamed_warning(setting.place, before, now));
+    return true;
+  };
+  const std::string_view key = current_key(setting.key);
+  if (rename(setting.key, key)) setting.key = key;
+  if (!setting.value.IsScalar()) return setting;
+  const std::string value = setting.value.Scalar();
+  const std::string_view now = current_value(setting.key, value);
+  if (rename(value, now)) setting.value = YAML::Node(std::string(now));
+  return setting;
+}
+
 void apply(const Setting& setting, LoadedConfig& config, Faults& faults) {
   bool is_known = false;
   visit_config(config.mapper, [&](const ConfigField& field, auto& member) {
@@ -109,7 +126,8 @@ tl::expected<LoadedConfig, Faults> checked(const Settings& settings) {
   LoadedConfig config;
   Faults faults;
   std::map<std::string, int> layers;  // that gave each key last
-  for (const Setting& setting : settings) {
+  for (const Setting& given : settings) {
+    const Setting setting = renamed(given, config.warnings);
     const auto [earlier, is_first] = layers.try_emplace(setting.key, setting.layer);
     if (!is_first && earlier->second == setting.layer && setting.place != "--set") {
       faults.push_back(
@@ -127,6 +145,11 @@ tl::expected<LoadedConfig, Faults> checked(const Settings& settings) {
 }
 
 }  // namespace
+
+Error renamed_warning(const std::string& place, std::string_view before, std::string_view now) {
+  return invalid(place, fmt::format("'{}' is called '{}' now", before, now),
+                 fmt::format("write '{}': the next version does not know the old name", now));
+}
 
 tl::expected<LoadedConfig, Faults> load_config(const ConfigInput& input) {
   Settings settings;

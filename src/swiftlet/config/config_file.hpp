@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "swiftlet/base/faults.hpp"
@@ -24,10 +25,16 @@ struct ConfigInput {
 struct LoadedConfig {
   MapperConfig mapper;
   std::map<std::string, std::string, std::less<>> places;
+  Faults warnings;  ///< what was accepted, but will not be by the next version (config_aliases.hpp)
 };
 
+/// What is told of a key or value that has another name now.
+[[nodiscard]] Error renamed_warning(const std::string& place, std::string_view before,
+                                    std::string_view now);
+
 /// Reads and checks parameters: every key must be known and every value of its type, without a unit
-/// behind it, and within its limits. Errors: all faults at once, each with file and line; kNotFound
+/// behind it, and within its limits. What the version before called otherwise is read, and told in
+/// `warnings`. Errors: all faults at once, each with file and line; kNotFound
 /// or kIo if the file cannot be read, kInvalidConfig for what is in it.
 [[nodiscard]] tl::expected<LoadedConfig, Faults> load_config(const ConfigInput& input);
 

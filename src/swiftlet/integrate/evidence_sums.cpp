@@ -46,7 +46,7 @@ std::size_t EvidenceSums::apply(std::uint64_t frame_number, RollingMap& map) {
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     BlockSums& sums = sums_[i];
     for (std::size_t k = 0; k < kBlockVoxels; ++k)
-      sums.steps[k] = (sums.steps[k] & ~kIsHeld) | (sums.ends[k] > 0 ? kIsHeld : 0);
+      sums.steps[k] = (sums.steps[k] & ~kNotFree) | (sums.ends[k] > 0 ? kNotFree : 0);
     cells += add_evidence(sums.steps, rounding_seed(touched_[i], frame_number),
                           map.writable(touched_[i]));
     sums = {};

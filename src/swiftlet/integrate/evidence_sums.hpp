@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,10 +19,15 @@ namespace swiftlet {
 /// A single ray gives far less than one step of a byte, so evidence is gathered first, in fixed
 /// point: integers add up to the same sum in any order. Only blocks that rays touched have sums.
 /// Sums are steps * 2^20 in 32 bits: a frame gives a cell at most sqrt(3) whole observations (the
-/// projected area of a cube) of at most 127 steps, a ninth of the range, or by chords one of at
-/// most 500 steps, a quarter; and one ray at 1 m gives some 190 units of the last place.
+/// projected area of a cube) of at most 127 steps, a ninth of the range, or by
+/// PrecisionWeightedModel one of at most 500 steps, a quarter; and one ray at 1 m gives some 190
+/// units of the last place.
 class EvidenceSums {
  public:
+  /// `logodds_per_step`: of add_log_odds().
+  explicit EvidenceSums(double logodds_per_step)
+      : fixed_per_log_odds_(kOneStep / logodds_per_step) {}
+
   /// Forgets all sums; `window` is where the next ones may fall. Allocates only while the frames
   /// grow.
   void begin(const BlockWindow& window);
@@ -30,9 +36,15 @@ class EvidenceSums {
   void add(const VoxelIndex& voxel, FixedSteps fixed_steps) {
     sums_of(block_of(voxel)).steps[offset_in_block(voxel)] += fixed_steps;
   }
-  /// Adds to what holds a cell (ChordModel::Evidence::ends), in any unit: its sign counts.
-  void add_ends(const VoxelIndex& voxel, std::int32_t ends) {
-    sums_of(block_of(voxel)).ends[offset_in_block(voxel)] += ends;
+  void add_log_odds(const VoxelIndex& voxel, double log_odds) {
+    add(voxel, static_cast<FixedSteps>(std::lrint(log_odds * fixed_per_log_odds_)));
+  }
+  /// Adds to what marks a cell as not free (PrecisionWeightedModel::Evidence::ends), in whole
+  /// observations: the sign of the sum counts. REQUIRES: |ends| < 100 in one frame.
+  void add_ends(const VoxelIndex& voxel, double ends) {
+    constexpr double kEndUnit = 1 << 20;
+    sums_of(block_of(voxel)).ends[offset_in_block(voxel)] +=
+        static_cast<std::int32_t>(std::lrint(ends * kEndUnit));
   }
 
   /// Adds every sum to its cell once (add_evidence()). Returns the number of cells with evidence.
@@ -54,6 +66,7 @@ class EvidenceSums {
   }
   BlockSums& find_or_touch(const BlockIndex& block);
 
+  double fixed_per_log_odds_;
   BlockWindow window_{};
   std::vector<std::uint32_t> slot_of_;  // per block of the window: index into touched_ and sums_
   std::vector<BlockIndex> touched_;

@@ -30,7 +30,7 @@ std::size_t add_evidence(std::span<const FixedSteps, kBlockVoxels> evidence, std
       // Without evidence the draw alone never makes a step.
       const FixedSteps steps = (e[i] + dither(words[i / 4], i % 4)) >> kStepFractionBits;
       const QuantizedLogOdds before = block.cells[row + i], after = add_steps(before, steps);
-      const bool is_kept = after < before && (e[i] & kIsHeld) != 0;
+      const bool is_kept = after < before && (e[i] & kNotFree) != 0;
       block.cells[row + i] = is_kept ? std::max(after, std::min(before, kUnknownCell)) : after;
       cells += e[i] != 0 ? 1 : 0;
     }

@@ -18,9 +18,9 @@ inline constexpr int kStepFractionBits = 20;
 inline constexpr double kOneStep = 1 << kStepFractionBits;
 /// Evidence that saturates any cell.
 inline constexpr FixedSteps kMostSteps = 255 << kStepFractionBits;
-/// The last bit of evidence says that the cell is held: what speaks against matter in it takes it
-/// to unknown at most, never on to free (ChordModel).
-inline constexpr FixedSteps kIsHeld = 1;
+/// The last bit of evidence says that the cell is not free: what speaks against matter in it takes
+/// it to unknown at most, never on to free (PrecisionWeightedModel).
+inline constexpr FixedSteps kNotFree = 1;
 
 /// Seeds the rounding of one block in one frame.
 [[nodiscard]] constexpr std::uint64_t rounding_seed(const BlockIndex& block,

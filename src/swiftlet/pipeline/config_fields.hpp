@@ -112,15 +112,14 @@ void sensor(Options& o, Visit& visit) {
                     "disparity error s; 0.05 well textured, above 0.2 needs calibration", 0.001,
                     10.0},
         o.subpixel_px);
-  visit(ConfigField{"sensor.importance_m", "k of the inverse sensor model; not of sharp fusion",
-                    0.001, 10.0},
+  visit(ConfigField{"sensor.importance_m", "k of the inverse sensor model", 0.001, 10.0},
         o.model.importance_m);
   visit(ConfigField{"sensor.p_min", "occupancy of a cell that a ray passes", 0.01, 0.49},
         o.model.p_min);
-  visit(
-      ConfigField{"sensor.p_max",
-                  "highest occupancy that one reading can claim; not of sharp fusion", 0.51, 0.999},
-      o.model.p_max);
+  visit(ConfigField{"sensor.p_max",
+                    "highest occupancy that one reading can claim; of the inverse sensor model",
+                    0.51, 0.999},
+        o.model.p_max);
 }
 
 template <class Options, class Visit>
@@ -128,11 +127,10 @@ void integrate(Options& o, Visit& visit) {
   visit(
       ConfigField{"integrate.integrator", "how a frame is fused (see `swiftlet list integrators`)"},
       o.integrator);
-  visit(
-      ConfigField{"integrate.fusion",
-                  "thesis: the thesis's rule; guarded: the same, and thin things are kept; sharp: "
-                  "the most exact map, readings weighted by their precision"},
-      o.fusion);
+  visit(ConfigField{"integrate.model",
+                    "how readings become evidence: inverse_sensor_model, thin_obstacle_preserving "
+                    "or precision_weighted (see `swiftlet list models`)"},
+        o.model);
   visit(ConfigField{"integrate.ray_method", "how rays are traced (see `swiftlet list rays`)"},
         o.ray_method);
   visit(ConfigField{"integrate.logodds_per_step", "one step of a cell's byte, in log-odds", 0.001,
@@ -140,10 +138,12 @@ void integrate(Options& o, Visit& visit) {
         o.logodds_per_step);
   visit(ConfigField{"integrate.threads", "threads that share a frame; the map is the same", 1, 64},
         o.threads);
-  visit(ConfigField{"integrate.max_frame_ms",
-                    "once fusing took so long, far blocks wait for the next frame; 0: never", 0.0,
-                    1000.0},
-        o.max_frame_ms);
+  visit(
+      ConfigField{
+          "integrate.max_frame_ms",
+          "once fusing took so long, far blocks are left out of a frame and counted; 0: never", 0.0,
+          1000.0},
+      o.max_frame_ms);
   visit(
       ConfigField{"integrate.decay_s",
                   "in so many seconds an occupied cell becomes unknown where the camera looks and "

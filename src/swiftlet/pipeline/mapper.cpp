@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "swiftlet/integrate/measurement_models.hpp"
+
 namespace swiftlet {
+
 Expected<Mapper> Mapper::create(const MapperConfig& config, BlockArchive* archive) {
   if (auto faults = config.faults(); !faults.empty())
     return tl::make_unexpected(std::move(faults.front()));
@@ -19,13 +22,17 @@ Expected<Mapper> Mapper::create(const MapperConfig& config, BlockArchive* archiv
   if (!map) return forward_error(std::move(map));
   auto conditioner = Conditioner::create(config.conditioning());
   if (!conditioner) return forward_error(std::move(conditioner));
+  const auto model = find_measurement_model(config.integrate.model);
+  if (!model) return tl::make_unexpected(model.error());
   auto integrator = make_integrator(config.integrate);
   if (!integrator) return forward_error(std::move(integrator));
-  return Mapper(config, archive, std::move(*map), std::move(*conditioner), std::move(*integrator));
+  return Mapper(config, archive, std::move(*map), std::move(*conditioner), model->make(),
+                std::move(*integrator));
 }
 
 Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map,
-               Conditioner conditioner, std::unique_ptr<Integrator> integrator)
+               Conditioner conditioner, MeasurementModelPtr model,
+               std::unique_ptr<Integrator> integrator)
     : config_(config),
       clears_for_new_world_(config.on_new_world == kClearForNewWorld),
       keeps_in_new_world_(config.on_new_world == kKeepInNewWorld),
@@ -33,8 +40,8 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
       map_(std::move(map)),
       gate_(std::make_unique<FrameGate>(config.quality)),
       conditioner_(std::move(conditioner)),
+      model_(std::move(model)),
       integrator_(std::move(integrator)) {
-  if (config.integrate.fusion != kThesisFusion) thin_ = std::make_unique<ThinObstacleFilter>();
   if (config.integrate.decay_s > 0.0)
     decay_ = std::make_unique<OccupancyDecay>(config.integrate.decay_s);
   if (config.window.lookahead_s > 0.0)
@@ -74,6 +81,17 @@ std::optional<FrameVerdict> Mapper::refusal(const Frame& frame) {
   return gate_->refusal(frame);
 }
 
+/// What is known of the camera, by the frame itself where it tells more.
+SensorOptions Mapper::instrument_of(const Frame& frame) const {
+  SensorOptions instrument = config_.sensor;
+  if (frame.baseline_m > 0.0) instrument.baseline_m = frame.baseline_m;
+  return instrument;
+}
+
+Eigen::Vector3d Mapper::window_goal(const Frame& frame) {
+  return lookahead_ ? lookahead_->middle_for(frame) : frame.T_world_camera.translation();
+}
+
 MapUpdate Mapper::integrate(const Frame& frame) {
   MapUpdate update;
   StageTimer timer(update.times);
@@ -81,11 +99,9 @@ MapUpdate Mapper::integrate(const Frame& frame) {
     update.verdict = *verdict;
     return update;
   }
-  SensorOptions instrument = config_.sensor;
-  if (frame.baseline_m > 0.0) instrument.baseline_m = frame.baseline_m;
-  const StereoNoise noise{frame.intrinsics.fx(), instrument.baseline_m, instrument.subpixel_px};
-  const ConditionedDepth& depth =
-      conditioner_.clean(frame.depth, frame.intrinsics, noise.sigma_m(1.0));
+  const SensorOptions instrument = instrument_of(frame);
+  const ConditionedDepth& depth = conditioner_.clean(
+      frame.depth, frame.intrinsics, stereo_noise(frame.intrinsics, instrument).sigma_m(1.0));
   pyramid_.build(depth.raw);
   timer.finish(Stage::kCondition);
   if (pyramid_.readings() == 0) {
@@ -93,28 +109,29 @@ MapUpdate Mapper::integrate(const Frame& frame) {
     return update;
   }
   enter_world_of(frame);  // only now: a frame without use clears nothing
-  update.window_goal =
-      lookahead_ ? lookahead_->middle_for(frame) : frame.T_world_camera.translation();
+  update.window_goal = window_goal(frame);
   update.shift = map_.recentre(update.window_goal, archive_);
   timer.finish(Stage::kRecentre);
-  instrument.subpixel_px *= double{depth.noise_left};
-  const auto shape =
-      config_.integrate.fusion == kSharpFusion ? CellShape::kChord : CellShape::kSlice;
-  const StereoSensor sensor(frame.intrinsics, instrument, map_.voxel_m(), depth.ratio, shape);
+  fuse(frame, instrument, depth, update);
+  timer.finish(Stage::kIntegrate);
+  update.was_published = map_.publish(frame_count_);
+  timer.finish(Stage::kPublish);
+  return update;
+}
+
+void Mapper::fuse(const Frame& frame, const SensorOptions& instrument,
+                  const ConditionedDepth& depth, MapUpdate& update) {
+  SensorOptions left = instrument;
+  left.subpixel_px *= double{depth.noise_left};
+  const StereoSensor sensor(frame.intrinsics, left, map_.voxel_m(), depth.ratio);
   const DepthView view{depth, pyramid_, frame.intrinsics, frame.T_world_camera, frame_count_};
-  if (thin_) thin_->collect(view, map_);
-  update.tally = integrator_->integrate(view, sensor, map_);
-  if (thin_) thin_->protect(map_);
+  update.tally = integrator_->integrate(view, sensor, *model_, map_);
   if (decay_) {
     const double sigma_per_z2 = sensor.noise().sigma_m(1.0);
     update.decayed = decay_->apply(
         view, {frame.stamp, frame.camera, sigma_per_z2, config_.depth.max_range_m}, map_);
   }
   ++frame_count_;
-  timer.finish(Stage::kIntegrate);
-  update.was_published = map_.publish(frame_count_);
-  timer.finish(Stage::kPublish);
-  return update;
 }
 
 }  // namespace swiftlet

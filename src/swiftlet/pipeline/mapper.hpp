@@ -10,8 +10,8 @@
 #include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/integrate/integrator.hpp"
+#include "swiftlet/integrate/measurement_model.hpp"
 #include "swiftlet/integrate/upkeep/occupancy_decay.hpp"
-#include "swiftlet/integrate/upkeep/thin_obstacle_filter.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/pipeline/frame_gate.hpp"
 #include "swiftlet/pipeline/lookahead.hpp"
@@ -65,18 +65,22 @@ class Mapper {
 
   /// Frames integrated so far.
   [[nodiscard]] std::uint64_t frame_count() const { return frame_count_; }
-  /// The window and the integrator's scratch [bytes].
+  /// The window and the scratch of what integrates [bytes].
   [[nodiscard]] std::size_t memory_bytes() const {
-    const std::size_t thin = thin_ ? thin_->memory_bytes() : 0;
-    return map_.memory_bytes() + pyramid_.memory_bytes() + integrator_->memory_bytes() + thin;
+    return map_.memory_bytes() + pyramid_.memory_bytes() + model_->memory_bytes() +
+           integrator_->memory_bytes();
   }
 
  private:
   Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map, Conditioner conditioner,
-         std::unique_ptr<Integrator> integrator);
+         MeasurementModelPtr model, std::unique_ptr<Integrator> integrator);
   [[nodiscard]] std::optional<FrameVerdict> refusal(const Frame& frame);
   [[nodiscard]] bool is_of_other_world(const Frame& frame) const;
   void enter_world_of(const Frame& frame);
+  [[nodiscard]] SensorOptions instrument_of(const Frame& frame) const;
+  [[nodiscard]] Eigen::Vector3d window_goal(const Frame& frame);
+  void fuse(const Frame& frame, const SensorOptions& instrument, const ConditionedDepth& depth,
+            MapUpdate& update);
 
   MapperConfig config_;
   bool clears_for_new_world_;
@@ -87,9 +91,9 @@ class Mapper {
   std::unique_ptr<FrameGate> gate_;
   Conditioner conditioner_;
   DepthRangePyramid pyramid_;
+  MeasurementModelPtr model_;
   std::unique_ptr<Integrator> integrator_;
-  std::unique_ptr<ThinObstacleFilter> thin_;  // null: with the thesis's rule
-  std::unique_ptr<OccupancyDecay> decay_;     // null: never
+  std::unique_ptr<OccupancyDecay> decay_;  // null: never
   /// Null: the window stays around the vehicle.
   std::unique_ptr<Lookahead> lookahead_;
   std::uint64_t frame_count_ = 0;

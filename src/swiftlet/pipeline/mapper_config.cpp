@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "swiftlet/condition/conditioner.hpp"
+#include "swiftlet/integrate/measurement_models.hpp"
 #include "swiftlet/integrate/rays/ray_method.hpp"
 
 namespace swiftlet {
@@ -48,10 +49,11 @@ void keep_fault(std::vector<Error>& faults, std::string_view key, Expected<T>&& 
 
 ConditionOptions MapperConfig::conditioning() const {
   ConditionOptions options = depth;
-  if (integrate.fusion != kSharpFusion) return options;
+  const auto model = find_measurement_model(integrate.model);
+  if (!model || model->depth_step.empty()) return options;
   const auto gate = std::ranges::find(options.steps, "range_gate");
   const auto behind = gate == options.steps.end() ? options.steps.begin() : gate + 1;
-  options.steps.insert(behind, "smooth");
+  options.steps.insert(behind, std::string(model->depth_step));
   return options;
 }
 
@@ -66,11 +68,7 @@ std::vector<Error> MapperConfig::faults() const {
   keep_fault(faults, "depth.steps", Conditioner::create(depth));
   keep_fault(faults, "integrate.integrator",
              find_registered(integrators(), integrate.integrator, "integrator"));
-  if (!is_fusion(integrate.fusion)) {
-    faults.push_back({ErrorCode::kInvalidConfig, "integrate.fusion",
-                      fmt::format("unknown fusion '{}'", integrate.fusion),
-                      "known are: thesis, guarded, sharp"});
-  }
+  keep_fault(faults, "integrate.model", find_measurement_model(integrate.model));
   if (!is_new_world_rule(on_new_world)) {
     faults.push_back({ErrorCode::kInvalidConfig, "map.on_new_world",
                       fmt::format("unknown rule '{}'", on_new_world),

@@ -18,14 +18,8 @@
 
 namespace swiftlet {
 
-/// How the readings of a frame become evidence: as the thesis has it; the same, with thin things
-/// kept; or with readings that are weighed against their neighbours first, too (docs/accuracy.md).
-inline constexpr std::string_view kThesisFusion = "thesis";
-inline constexpr std::string_view kGuardedFusion = "guarded";
-inline constexpr std::string_view kSharpFusion = "sharp";
-[[nodiscard]] constexpr bool is_fusion(std::string_view name) {
-  return name == kThesisFusion || name == kGuardedFusion || name == kSharpFusion;
-}
+/// The measurement model of the thesis, for its experiments and tables.
+inline constexpr std::string_view kThesisModel = "inverse_sensor_model";
 
 /// What becomes of a frame whose poses began a new world (Frame::pose_epoch), of which the map
 /// knows nothing: it is refused until the owner calls Mapper::begin_world(); or the map is cleared
@@ -48,7 +42,8 @@ struct MapperConfig {
   IntegrateOptions integrate;
   OccupancyThresholds occupancy;
 
-  /// The options of the depth steps, with those that the fusion adds behind the range gate.
+  /// The options of the depth steps, with the one that the measurement model wants behind the range
+  /// gate.
   [[nodiscard]] ConditionOptions conditioning() const;
 
   /// All faults at once; empty if the config can be used. Each names its key.

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "swiftlet/frame/intrinsics.hpp"
-#include "swiftlet/sensor/chord_model.hpp"
 #include "swiftlet/sensor/inverse_sensor_model.hpp"
 #include "swiftlet/sensor/stereo_noise.hpp"
 
@@ -20,29 +19,23 @@ struct SensorOptions {
   InverseSensorModel::Options model;
 };
 
-/// What of a cell a reading is compared with.
-enum class CellShape {
-  kSlice,  ///< half a cell of depth before and behind its centre: InverseSensorModel
-  kChord   ///< what its ray crosses of it: ChordModel
-};
+[[nodiscard]] inline StereoNoise stereo_noise(const PinholeIntrinsics& intrinsics,
+                                              const SensorOptions& options) {
+  return {intrinsics.fx(), options.baseline_m, options.subpixel_px};
+}
 
 /// A stereo depth camera as the map sees it: how much one reading says about one cell.
 class StereoSensor {
  public:
   StereoSensor(const PinholeIntrinsics& intrinsics, const SensorOptions& options, double voxel_m,
-               int ratio, CellShape shape = CellShape::kSlice)
-      : noise_{intrinsics.fx(), options.baseline_m, options.subpixel_px},
+               int ratio)
+      : noise_(stereo_noise(intrinsics, options)),
         model_(options.model),
-        chord_model_(voxel_m, model_.free_log_odds()),
-        shape_(shape),
         half_voxel_m_(0.5 * voxel_m),
         weight_per_z2_(ratio * ratio / (intrinsics.fx() * intrinsics.fy() * voxel_m * voxel_m)) {}
 
   [[nodiscard]] const StereoNoise& noise() const { return noise_; }
   [[nodiscard]] const InverseSensorModel& model() const { return model_; }
-
-  [[nodiscard]] const ChordModel& chord_model() const { return chord_model_; }
-  [[nodiscard]] CellShape shape() const { return shape_; }
 
   /// Distance weighting DW = z^2 n^2 / density^2, density = f c: undoes the fall of pixel density
   /// with distance, so that a cell fully covered by rays gets one observation a frame (method 6,
@@ -66,8 +59,6 @@ class StereoSensor {
  private:
   StereoNoise noise_;
   InverseSensorModel model_;
-  ChordModel chord_model_;
-  CellShape shape_;
   double half_voxel_m_;
   double weight_per_z2_;
 };

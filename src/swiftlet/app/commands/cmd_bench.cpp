@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/app/config_warnings.hpp"
 #include "swiftlet/app/progress.hpp"
 #include "swiftlet/app/report/bench_report.hpp"
 #include "swiftlet/app/visible_text.hpp"
@@ -21,7 +22,8 @@ struct BenchOptions {
   eval::WorkloadOptions workload;
   std::vector<double> voxels_m{0.2, 0.1, 0.05};
   std::vector<int> threads{1, 2};
-  std::string fusion = IntegrateOptions{}.fusion;
+  std::string model = IntegrateOptions{}.model;
+  std::string fusion;    ///< --model as the version before called it
   double range_m = 0.0;  ///< 0: as the kind of source demands
   bool with_tables = false;
   bool as_json = false;
@@ -38,7 +40,7 @@ MapperConfig base_config(const BenchOptions& options, double max_range_m, double
   config.depth.downsample = 1;
   config.sensor.baseline_m = baseline_m;
   config.integrate.ray_method = "voxel_traversal";
-  config.integrate.fusion = options.fusion;
+  config.integrate.model = options.model;
   return config;
 }
 
@@ -77,12 +79,12 @@ class Bench {
     add_octomap(runners, config);
     tell(fmt::format("{}: cells of {} m", workload_.name, voxel_m));
     eval::race(workload_, runners, shown_progress());
-    return eval::rows_of(workload_, voxel_m, runners, fusion_note());
+    return eval::rows_of(workload_, voxel_m, runners, model_note());
   }
 
   Expected<std::vector<eval::BenchRow>> at_thesis_setting() const {
     MapperConfig config = base();
-    config.integrate.fusion = kThesisFusion;
+    config.integrate.model = kThesisModel;
     config.map.voxel_m = kThesisCell_m;
     config.depth.downsample = kThesisDownsample;
     std::vector<eval::Runner> runners;
@@ -105,9 +107,9 @@ class Bench {
   static void tell(const std::string& text) { std::fputs((visible(text) + "\n").c_str(), stderr); }
 
  private:
-  /// For the name of the workload, where the fusion is not the usual one.
-  [[nodiscard]] std::string fusion_note() const {
-    return options_.fusion == IntegrateOptions{}.fusion ? "" : ", " + options_.fusion;
+  /// For the name of the workload, where the measurement model is not the usual one.
+  [[nodiscard]] std::string model_note() const {
+    return options_.model == IntegrateOptions{}.model ? "" : ", " + options_.model;
   }
 
   [[nodiscard]] MapperConfig base() const {
@@ -191,6 +193,11 @@ void print(const Result& result, bool as_json) {
 }
 
 Faults bench(BenchOptions options) {
+  if (!options.fusion.empty()) {
+    tell_renamed("bench", "--fusion", "--model");
+    options.model = options.fusion;
+  }
+  options.model = current_model(options.model, "--model");
   if (options.range_m != 0.0) options.workload.max_range_m = options.range_m;
   if (auto faults = faults_of(options); !faults.empty()) return faults;
   std::vector<FrameSourcePtr> opened;
@@ -239,9 +246,10 @@ Action declare_bench(CLI::App& parser) {
       ->check(range(1, 64))
       ->type_name("N")
       ->default_str("1,2");
-  parser.add_option("--fusion", o->fusion, "integrate.fusion of our maps")
+  parser.add_option("--model", o->model, "integrate.model of our maps")
       ->type_name("NAME")
       ->capture_default_str();
+  parser.add_option("--fusion", o->fusion)->group("");  // what --model was called before
   parser.add_option("--range", o->range_m, "drop readings beyond; else 10 for sim:, 5 for others")
       ->check(range(0.1, 100.0))
       ->type_name("M");

@@ -15,6 +15,7 @@
 #include "swiftlet/eval/score/score.hpp"
 #include "swiftlet/eval/thesis/experiment.hpp"
 #include "swiftlet/integrate/integrator.hpp"
+#include "swiftlet/integrate/measurement_models.hpp"
 #include "swiftlet/integrate/rays/ray_method.hpp"
 #include "swiftlet/render/map_view.hpp"
 #include "swiftlet/sim/built_in_scenes.hpp"
@@ -54,6 +55,14 @@ std::vector<Listed> listed_scenes() {
   return lines;
 }
 
+std::vector<Listed> listed_models() {
+  std::vector<Listed> lines;
+  for (const MeasurementModelEntry& model : measurement_models()) {
+    lines.push_back({std::string(model.name), std::string(model.summary)});
+  }
+  return lines;
+}
+
 std::vector<Listed> listed_rays() {
   std::vector<Listed> lines;
   for (const RayMethod& ray : ray_methods()) {
@@ -83,6 +92,7 @@ const std::array kKinds{
     Kind{"scenes", "swiftlet map sim:NAME", listed_scenes},
     Kind{"steps", "parameter depth.steps", [] { return listed(depth_steps()); }},
     Kind{"rays", "swiftlet map --rays", listed_rays},
+    Kind{"models", "parameter integrate.model", listed_models},
     Kind{"integrators", "parameter integrate.integrator", [] { return listed(integrators()); }},
     Kind{"exporters", "swiftlet export --to", [] { return listed(exporters()); }},
     Kind{"views", "swiftlet render --view", [] { return listed(render::map_views()); }},

@@ -11,6 +11,7 @@
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/commands/config_flags.hpp"
 #include "swiftlet/app/commands/rig_flags.hpp"
+#include "swiftlet/app/config_warnings.hpp"
 #include "swiftlet/app/events.hpp"
 #include "swiftlet/app/input_files.hpp"
 #include "swiftlet/app/interrupt.hpp"
@@ -125,6 +126,7 @@ Expected<std::unique_ptr<FlightWatch>> start_watch(const MapOptions& options, co
 Faults map(const MapOptions& options) {
   auto config = config_of(options);
   if (!config) return std::move(config).error();
+  tell_warnings(*config);
   auto source = open_source(options.rig.added_to(options.source));
   if (!source) return fault_of(std::move(source));
   // Last, since it is the one that changes files.

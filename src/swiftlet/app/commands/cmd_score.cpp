@@ -8,11 +8,13 @@
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/commands/config_flags.hpp"
+#include "swiftlet/app/config_warnings.hpp"
 #include "swiftlet/app/progress.hpp"
 #include "swiftlet/app/report/score_report.hpp"
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/eval/bench/bench_workload.hpp"
 #include "swiftlet/eval/score/score_job.hpp"
+#include "swiftlet/integrate/measurement_models.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace swiftlet::app {
@@ -30,6 +32,7 @@ struct ScoreOptions {
 tl::expected<eval::ScoreJob, Faults> job_of(const ScoreOptions& options) {
   auto config = load_config(options.config);
   if (!config) return tl::make_unexpected(std::move(config).error());
+  tell_warnings(*config);
   auto source = open_source(options.source);
   if (!source) return tl::make_unexpected(fault_of(std::move(source)));
   adopt_baseline((*source)->info().baseline_m, *config);
@@ -37,8 +40,9 @@ tl::expected<eval::ScoreJob, Faults> job_of(const ScoreOptions& options) {
     config->mapper.depth.max_range_m = eval::range_of(options.source, {});
   eval::ScoreJob job{options.source, config->mapper, options.maps, options.frames,
                      shown_progress()};
+  for (std::string& map : job.maps) map = current_model(map, "--maps");
   if (job.maps.empty()) {
-    job.maps = {std::string(kThesisFusion), std::string(kGuardedFusion), std::string(kSharpFusion)};
+    for (const auto& model : measurement_models()) job.maps.emplace_back(model.name);
     if (eval::make_octomap_contender(config->mapper, false)) job.maps.emplace_back(eval::kOctomap);
   }
   return job;
@@ -70,7 +74,7 @@ Action declare_score(CLI::App& parser) {
       ->required();
   parser
       .add_option("--maps", o->maps,
-                  "fusions or integrators, and octomap; default: thesis,guarded,sharp,octomap")
+                  "measurement models or integrators, and octomap; default: all models, octomap")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAMES");
@@ -83,7 +87,7 @@ Action declare_score(CLI::App& parser) {
   parser.footer(
       "Examples:\n"
       "  swiftlet score sim:apartment --set map.voxel_m=0.1\n"
-      "  swiftlet score sim:wires --maps sharp,octomap --set map.voxel_m=0.1\n"
+      "  swiftlet score sim:wires --maps precision_weighted,octomap --set map.voxel_m=0.1\n"
       "  swiftlet score 7scenes:redkitchen/seq-01 --set map.voxel_m=0.05\n"
       "A simulated flight is judged by the truth: where matter is, and what of it could be seen\n"
       "from the poses that were flown. Of a recording every fifth frame is left out, and the map\n"

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "swiftlet/app/config_warnings.hpp"
 #include "swiftlet/app/report/bag_summary.hpp"
 #include "swiftlet/config/config_file.hpp"
 #include "swiftlet/file/file_content.hpp"
@@ -46,7 +47,9 @@ Faults faults_in_bag(const std::string& path) {
 
 Faults faults_in_config(const std::string& text, const std::string& path) {
   auto config = parse_config(text, path);
-  return config ? Faults{} : std::move(config).error();
+  if (!config) return std::move(config).error();
+  tell_warnings(*config);
+  return {};
 }
 
 Faults faults_in_rig(const std::string& text, const std::string& path) {

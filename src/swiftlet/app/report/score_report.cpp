@@ -63,6 +63,8 @@ std::string findings_text(const std::string& map, const std::vector<Finding>& al
   return text;
 }
 
+std::size_t column_width(const std::string& map) { return std::max(map.size(), std::size_t{14}); }
+
 }  // namespace
 
 std::string score_text(const ScoreReport& report) {
@@ -72,7 +74,7 @@ std::string score_text(const ScoreReport& report) {
                                  report.source, report.frames, report.flight_s, report.voxel_m);
   if (!report.intrinsics.empty()) text += fmt::format("intrinsics {}\n", report.intrinsics);
   text += fmt::format("\n{:{}}  better", "", width);
-  for (const std::string& map : report.maps) text += fmt::format(" {:>14}", map);
+  for (const std::string& map : report.maps) text += fmt::format(" {:>{}}", map, column_width(map));
   text += "\n";
   std::string last;
   for (const ScoreRow& row : report.rows) {
@@ -80,8 +82,9 @@ std::string score_text(const ScoreReport& report) {
     last = row.score;
     text += fmt::format("{:{}}  {:6}", row.meaning.name, width,
                         row.meaning.higher_is_better ? "high" : "low");
-    for (const auto& value : row.values)
-      text += fmt::format(" {:>14}", value_of(value, row.meaning.unit));
+    for (std::size_t i = 0; i < row.values.size(); ++i)
+      text += fmt::format(" {:>{}}", value_of(row.values[i], row.meaning.unit),
+                          column_width(report.maps[i]));
     text += "\n";
   }
   for (std::size_t i = 0; i < report.findings.size(); ++i)

@@ -38,7 +38,7 @@ constexpr std::array kSettings{
     Setting{"projective", "voxel_traversal", 1}};
 
 Expected<std::vector<Runner>> make_runners(const Workload& workload, MapperConfig config) {
-  config.integrate.fusion = kThesisFusion;
+  config.integrate.model = kThesisModel;
   config.map.voxel_m = kThesisTablesVoxel_m;
   config.depth.downsample = 1;
   config.integrate.threads = 1;

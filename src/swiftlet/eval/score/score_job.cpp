@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "swiftlet/integrate/measurement_models.hpp"
+
 namespace swiftlet::eval {
 namespace {
 
 Expected<std::unique_ptr<Contender>> make_entrant(const ScoreJob& job, const std::string& name) {
   if (name != kOctomap) {
     MapperConfig config = job.config;
-    (is_fusion(name) ? config.integrate.fusion : config.integrate.integrator) = name;
+    const bool is_model = find_measurement_model(name).has_value();
+    (is_model ? config.integrate.model : config.integrate.integrator) = name;
     return make_mapper_contender(config, true);
   }
   constexpr bool kIsDiscretised = false;

@@ -18,7 +18,7 @@ namespace swiftlet::eval {
 struct ScoreJob {
   std::string source;             ///< address
   MapperConfig config;            ///< of our maps; cell size and range of all
-  std::vector<std::string> maps;  ///< names of fusions or integrators, or "octomap"
+  std::vector<std::string> maps;  ///< names of measurement models or integrators, or "octomap"
   std::size_t frames = 600;       ///< evenly over the flight
   ProgressFunction progress{};
 };
@@ -31,7 +31,7 @@ struct Entrant {
 
 inline constexpr const char* kOctomap = "octomap";
 
-/// The maps of a job. Errors: kUsage for a name that is no integrator; kUnsupported for OctoMap if
+/// The maps of a job. Errors: kUsage for a name that is neither model nor integrator; kUnsupported for OctoMap if
 /// it was not built; those of Mapper::create().
 [[nodiscard]] Expected<std::vector<Entrant>> make_entrants(const ScoreJob& job);
 

@@ -14,8 +14,8 @@ Expected<ExperimentResult> run_apartment(const ProgressFunction& progress);
 
 namespace {
 
-/// A score of the map by the default fusion and of that by the thesis's rule; as bad as can be if
-/// it has none.
+/// A score of the map by the default model and of that by the thesis's; as bad as can be if it has
+/// none.
 struct Both {
   double ours, thesis;
 };
@@ -30,13 +30,13 @@ Both scores_of(const ScoreReport& report, std::string_view name, double worst) {
 }  // namespace
 
 /// The flight of the demo, three images a second, in cells of 0.1 m, judged by the scene. The
-/// default fusion is held to what the thesis expects; what its own rule reaches stands beside it.
+/// default model is held to what the thesis expects; what its own reaches stands beside it.
 Expected<ExperimentResult> run_apartment(const ProgressFunction& progress) {
   constexpr const char* kFlight = "sim:apartment?rate=3";
   ScoreJob job;
   job.source = kFlight;
   job.progress = progress;
-  job.maps = {job.config.integrate.fusion, std::string(kThesisFusion)};
+  job.maps = {job.config.integrate.model, std::string(kThesisModel)};
   job.config.map.voxel_m = 0.1;
   const auto report = score_flight(job);
   if (!report) return tl::make_unexpected(report.error());
@@ -50,15 +50,15 @@ Expected<ExperimentResult> run_apartment(const ProgressFunction& progress) {
   const Both straight = scores_of(*report, "wall columns within half a cell of their line", 0.0);
   result.checks = {
       {"the map matches the floor plan", "98 % of the seen surface within a cell",
-       fmt::format("{:.2f} % (thesis's rule: {:.2f} %)", 100.0 * recall.ours,
+       fmt::format("{:.2f} % (thesis's model: {:.2f} %)", 100.0 * recall.ours,
                    100.0 * recall.thesis),
        recall.ours >= 0.98},
       {"corners", "90 deg, to 1 deg on average",
-       fmt::format("off by {:.2f} deg on average (thesis's rule: {:.2f} deg)", corners.ours,
+       fmt::format("off by {:.2f} deg on average (thesis's model: {:.2f} deg)", corners.ours,
                    corners.thesis),
        corners.ours <= 1.0},
       {"walls straight and solid", "80 % of their columns within half a cell of a line",
-       fmt::format("{:.1f} % (thesis's rule: {:.1f} %)", 100.0 * straight.ours,
+       fmt::format("{:.1f} % (thesis's model: {:.1f} %)", 100.0 * straight.ours,
                    100.0 * straight.thesis),
        straight.ours >= 0.8}};
   return result;

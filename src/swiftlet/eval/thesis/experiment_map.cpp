@@ -13,7 +13,7 @@ namespace swiftlet::eval {
 
 MapperConfig thesis_config() {
   MapperConfig config;
-  config.integrate.fusion = kThesisFusion;
+  config.integrate.model = kThesisModel;
   return config;
 }
 

@@ -11,7 +11,7 @@
 
 namespace swiftlet::eval {
 
-/// The defaults, but for the thesis's rule of fusion.
+/// The defaults, but for the thesis's measurement model.
 [[nodiscard]] MapperConfig thesis_config();
 
 /// Maps the first `frames` frames of a source. Errors: those of the source and of Mapper::create().

@@ -42,14 +42,15 @@ struct FrameEvidence::Work {
   bool has_free = false;
 };
 
-FrameEvidence::FrameEvidence(const CubeView& view, const DepthRangePyramid& pyramid,
-                             const DepthMeanPyramid& means, const KernelParams& frame,
-                             std::uint64_t frame_number)
+FrameEvidence::FrameEvidence(const CubeView& view, const DepthView& depth,
+                             const DepthMeanPyramid& means, const MeasurementModel& model,
+                             const KernelParams& params)
     : view_(view),
-      tiles_(pyramid.tiles()),
+      tiles_(depth.pyramid.tiles()),
       means_(means),
-      frame_(frame),
-      frame_number_(frame_number) {}
+      model_(model),
+      params_(params),
+      frame_number_(depth.frame_number) {}
 
 void FrameEvidence::intersect_octants(const CubeInView& cube, int edge, UpdateType type,
                                       OctantUpdates& octants) const {
@@ -64,12 +65,12 @@ void FrameEvidence::intersect_octants(const CubeInView& cube, int edge, UpdateTy
 }
 
 CellCube FrameEvidence::cells_of(const CubeInView& cube, int edge, int offset) const {
-  const float to_first = 0.5F * static_cast<float>(1 - edge) * frame_.voxel_m;
+  const float to_first = 0.5F * static_cast<float>(1 - edge) * params_.voxel_m;
   CellCube cells{cube.p_world, cube.p_camera, edge, offset};
   for (int i = 0; i < 3; ++i) {
     cells.p_world[i] += to_first;
     cells.p_camera[i] +=
-        to_first * (frame_.world_axis[0][i] + frame_.world_axis[1][i] + frame_.world_axis[2][i]);
+        to_first * (params_.world_axis[0][i] + params_.world_axis[1][i] + params_.world_axis[2][i]);
   }
   return cells;
 }
@@ -92,27 +93,27 @@ void FrameEvidence::look(const CubeInView& cube, Work& work) const {
   if (passed.count + sampled.count == 0) return;
   // Tiles of a fraction of a cell's width, and as many samples as there are such tiles. What noise
   // blurs needs to be told apart less finely.
-  const float z_m = std::max(cube.p_camera[2], frame_.voxel_m);
-  const float width_px = frame_.fx * frame_.voxel_m / z_m;
-  const float noise_cells = frame_.sigma_per_z2 * z_m * z_m / frame_.voxel_m;
+  const float z_m = std::max(cube.p_camera[2], params_.voxel_m);
+  const float width_px = params_.fx * params_.voxel_m / z_m;
+  const float noise_cells = params_.sigma_per_z2 * z_m * z_m / params_.voxel_m;
   const float tiles_across = std::max(1.0F, kTilesAcross / (1.0F + noise_cells));
   const int shift = std::clamp(static_cast<int>(std::lround(std::log2(width_px / tiles_across))),
                                DepthMeanPyramid::kFinestShift, DepthMeanPyramid::kCoarsestShift);
   const float across = width_px / static_cast<float>(1 << shift);
-  const bool is_near = cube.z_near() < kNearCells * frame_.voxel_m;
+  const bool is_near = cube.z_near() < kNearCells * params_.voxel_m;
   const float count =
       is_near ? float{FaceSamples::kMost}
               : std::clamp(kSamplesPerTile * across * across, kFewest, float{FaceSamples::kMost});
   CellLook look{.samples = {},
                 .tiles = means_.tiles(shift),
                 .is_inside_image = !is_near && view_.is_inside_image(cube)};
-  look.samples.spread(static_cast<int>(count), cube.p_world, frame_.voxel_m, frame_.world_axis,
+  look.samples.spread(static_cast<int>(count), cube.p_world, params_.voxel_m, params_.world_axis,
                       frame_number_);
   passed.fill_last_group();
   sampled.fill_last_group();
   FixedSteps* steps = work.evidence.steps.data();
-  fill_passed(frame_, work.block, passed, look, steps);
-  fill_sampled(frame_, work.block, sampled, look, steps);
+  model_.fill_passed(params_, work.block, passed, look, steps);
+  model_.fill_sampled(params_, work.block, sampled, look, steps);
   passed.count = sampled.count = 0;
 }
 
@@ -121,7 +122,7 @@ void FrameEvidence::descend(const CubeInView& cube, int edge, int offset, Update
   if (type == UpdateType::kUnobserved) return;
   if (type != UpdateType::kPossiblyOccupied && is_surely_free(work.known, edge, offset)) return;
   if (type == UpdateType::kFree && edge >= 4) {
-    fill_free(frame_, cells_of(cube, edge, offset), work.evidence.steps.data());
+    model_.fill_free(params_, cells_of(cube, edge, offset), work.evidence.steps.data());
     work.has_free = true;
     return;
   }
@@ -141,7 +142,7 @@ void FrameEvidence::descend(const CubeInView& cube, int edge, int offset, Update
     descend(part, half, offset + half * (x + kBlockEdge * (y + kBlockEdge * z)),
             octants.types[static_cast<std::size_t>(i)], work);
     // Near the camera, each part of a block needs samples of its own.
-    if (edge == kBlockEdge && cube.p_camera[2] < kFarCells * frame_.voxel_m) look(part, work);
+    if (edge == kBlockEdge && cube.p_camera[2] < kFarCells * params_.voxel_m) look(part, work);
   }
 }
 

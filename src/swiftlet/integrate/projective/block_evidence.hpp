@@ -7,7 +7,8 @@
 #include <cstdint>
 
 #include "swiftlet/integrate/image/depth_mean_pyramid.hpp"
-#include "swiftlet/integrate/projective/cell_kernels.hpp"
+#include "swiftlet/integrate/measurement_model.hpp"
+#include "swiftlet/integrate/projective/cell_list.hpp"
 #include "swiftlet/integrate/projective/range_image_intersector.hpp"
 #include "swiftlet/map/voxel_block.hpp"
 
@@ -30,12 +31,13 @@ struct BlockEvidence {
 /// cells, which look at the readings of their image.
 class FrameEvidence {
  public:
-  FrameEvidence(const CubeView& view, const DepthRangePyramid& pyramid,
-                const DepthMeanPyramid& means, const KernelParams& frame,
-                std::uint64_t frame_number);
+  FrameEvidence(const CubeView& view, const DepthView& depth, const DepthMeanPyramid& means,
+                const MeasurementModel& model, const KernelParams& params);
+
+  [[nodiscard]] std::uint64_t frame_number() const { return frame_number_; }
 
   void intersect(const CubeBatch& cubes, UpdateTypes& types) const {
-    intersect_cubes(frame_, tiles_, cubes, types);
+    intersect_cubes(params_, tiles_, cubes, types);
   }
   /// The eight octants, `edge` cells wide, of a cube of this type. What passes a cube passes
   /// its octants: those of a free one need no look.
@@ -56,7 +58,8 @@ class FrameEvidence {
   const CubeView& view_;
   DepthRangeTiles tiles_;
   const DepthMeanPyramid& means_;
-  const KernelParams& frame_;
+  const MeasurementModel& model_;
+  const KernelParams& params_;
   std::uint64_t frame_number_;
 };
 

@@ -11,7 +11,9 @@
 #endif
 
 #include "swiftlet/integrate/image/float_lanes_private.hpp"
-#include "swiftlet/integrate/projective/cell_kernels.hpp"
+#include "swiftlet/integrate/projective/cell_list.hpp"
+#include "swiftlet/integrate/projective/kernel_params.hpp"
+#include "swiftlet/integrate/step_rounding.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swiftlet::HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
@@ -42,14 +44,14 @@ HWY_INLINE CellLanes cells_at(const KernelParams& params, const CellCube& cube, 
   return cells;
 }
 
-/// Log-odds as evidence, within what saturates a cell; not held.
+/// Log-odds as evidence, within what saturates a cell; kNotFree is not set.
 HWY_INLINE IntLanes fixed_steps(const KernelParams& params, FloatLanes log_odds) {
   constexpr Floats f;
   constexpr Ints i;
   const FloatLanes steps = hn::Mul(log_odds, hn::Set(f, params.steps_per_log_odds));
   const FloatLanes most = hn::Set(f, static_cast<float>(kMostSteps));
   const IntLanes whole = hn::ConvertTo(i, hn::Min(hn::Max(steps, hn::Neg(most)), most));
-  return hn::And(whole, hn::Set(i, ~kIsHeld));
+  return hn::And(whole, hn::Set(i, ~kNotFree));
 }
 
 }  // namespace

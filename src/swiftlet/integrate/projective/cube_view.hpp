@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
-#include "swiftlet/condition/conditioned_depth.hpp"
-#include "swiftlet/frame/intrinsics.hpp"
-#include "swiftlet/integrate/integrator.hpp"
+#include "swiftlet/base/voxel_index.hpp"
+#include "swiftlet/integrate/depth_view.hpp"
 
 namespace swiftlet {
 

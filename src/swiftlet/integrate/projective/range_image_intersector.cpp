@@ -29,13 +29,13 @@ struct Rectangles {
 };
 
 /// Readings of a rectangle.
-struct Readings {
+struct ReadingRange {
   IntLanes nearest, farthest;
   IntLanes gaps;  // not 0 where a pixel has no reading
 };
 
 /// Whether any of a box that the camera's plane may cut lies between the four sides of the view.
-HWY_INLINE Mask meets_frustum(const KernelParams& params, const Boxes& b) {
+HWY_INLINE Mask meets_frustum(const ViewParams& view, const Boxes& b) {
   constexpr Floats f;
   const FloatLanes zero = hn::Zero(f);
   const auto place = [&](FloatLanes x, float side, float focal, float offset) {
@@ -43,16 +43,16 @@ HWY_INLINE Mask meets_frustum(const KernelParams& params, const Boxes& b) {
                    hn::Mul(hn::Set(f, offset), b.z_far));
   };
   const auto is_in_u =
-      hn::And(hn::Ge(place(b.x, b.half_x, params.fx, params.u_offset), zero),
-              hn::Le(place(b.x, -b.half_x, params.fx, params.u_offset - params.width), zero));
+      hn::And(hn::Ge(place(b.x, b.half_x, view.fx, view.u_offset), zero),
+              hn::Le(place(b.x, -b.half_x, view.fx, view.u_offset - view.width), zero));
   const auto is_in_v =
-      hn::And(hn::Ge(place(b.y, b.half_y, params.fy, params.v_offset), zero),
-              hn::Le(place(b.y, -b.half_y, params.fy, params.v_offset - params.height), zero));
+      hn::And(hn::Ge(place(b.y, b.half_y, view.fy, view.v_offset), zero),
+              hn::Le(place(b.y, -b.half_y, view.fy, view.v_offset - view.height), zero));
   return hn::And(hn::Gt(b.z_far, zero), hn::And(is_in_u, is_in_v));
 }
 
 /// Bounds of the boxes' images. REQUIRES: z_near > 0.
-HWY_INLINE Rectangles image_of(const KernelParams& params, const Boxes& b) {
+HWY_INLINE Rectangles image_of(const ViewParams& view, const Boxes& b) {
   constexpr Floats f;
   const FloatLanes one = hn::Set(f, 1.0F), zero = hn::Zero(f);
   const FloatLanes per_near = hn::Div(one, b.z_near), per_far = hn::Div(one, b.z_far);
@@ -64,10 +64,10 @@ HWY_INLINE Rectangles image_of(const KernelParams& params, const Boxes& b) {
   const FloatLanes right = hn::Add(b.x, hn::Set(f, b.half_x));
   const FloatLanes top = hn::Sub(b.y, hn::Set(f, b.half_y));
   const FloatLanes bottom = hn::Add(b.y, hn::Set(f, b.half_y));
-  return {place(left, hn::Lt(left, zero), params.fx, params.u_offset),
-          place(top, hn::Lt(top, zero), params.fy, params.v_offset),
-          place(right, hn::Gt(right, zero), params.fx, params.u_offset),
-          place(bottom, hn::Gt(bottom, zero), params.fy, params.v_offset)};
+  return {place(left, hn::Lt(left, zero), view.fx, view.u_offset),
+          place(top, hn::Lt(top, zero), view.fy, view.v_offset),
+          place(right, hn::Gt(right, zero), view.fx, view.u_offset),
+          place(bottom, hn::Gt(bottom, zero), view.fy, view.v_offset)};
 }
 
 HWY_INLINE IntLanes pixel_of(FloatLanes place, float size) {
@@ -78,18 +78,19 @@ HWY_INLINE IntLanes pixel_of(FloatLanes place, float size) {
 }
 
 /// All readings of a rectangle or of a little more: it is rounded outwards to whole tiles of the
-/// level whose tiles are at most as wide as it is, and more than half as wide.
-HWY_INLINE Readings readings_of(const KernelParams& params, const DepthRangeTiles& tiles,
-                                const Rectangles& r) {
+/// level whose tiles are at most as wide as it is, and more than half as wide; of one that is
+/// `finer` by so many levels.
+HWY_INLINE ReadingRange range_of(const ViewParams& view, const DepthRangeTiles& tiles,
+                                 const Rectangles& r, int finer) {
   constexpr Floats f;
   constexpr Ints i;
   constexpr hn::RebindToUnsigned<Ints> n;
-  const IntLanes u0 = pixel_of(r.u0, params.width), u1 = pixel_of(r.u1, params.width);
-  const IntLanes v0 = pixel_of(r.v0, params.height), v1 = pixel_of(r.v1, params.height);
+  const IntLanes u0 = pixel_of(r.u0, view.width), u1 = pixel_of(r.u1, view.width);
+  const IntLanes v0 = pixel_of(r.v0, view.height), v1 = pixel_of(r.v1, view.height);
   const IntLanes longest = hn::Add(hn::Max(hn::Sub(u1, u0), hn::Sub(v1, v0)), hn::Set(i, 1));
   // The exponent of a float is the logarithm of a whole number.
   const IntLanes exponent = hn::ShiftRight<23>(hn::BitCast(i, hn::ConvertTo(f, longest)));
-  const IntLanes finest = hn::Set(i, 127 + DepthRangePyramid::kTileShift);
+  const IntLanes finest = hn::Set(i, 127 + DepthRangePyramid::kTileShift + finer);
   const IntLanes level =
       hn::Min(hn::Max(hn::Sub(exponent, finest), hn::Zero(i)), hn::Set(i, tiles.levels - 1));
   const IntLanes shift = hn::Add(level, hn::Set(i, DepthRangePyramid::kTileShift));
@@ -98,7 +99,7 @@ HWY_INLINE Readings readings_of(const KernelParams& params, const DepthRangeTile
   const IntLanes first = hn::GatherIndex(i, tiles.first.data(), level);
   const IntLanes width = hn::GatherIndex(i, tiles.width.data(), level);
 
-  Readings all{hn::Set(i, 0xffff), hn::Zero(i), hn::Zero(i)};
+  ReadingRange all{hn::Set(i, 0xffff), hn::Zero(i), hn::Zero(i)};
   for (int dy = 0; dy == 0 || !hn::AllTrue(i, hn::Gt(hn::Add(y0, hn::Set(i, dy)), y1)); ++dy) {
     const IntLanes y = hn::Min(hn::Add(y0, hn::Set(i, dy)), y1);
     const IntLanes row = hn::Add(first, hn::Mul(y, width));
@@ -141,16 +142,16 @@ HWY_INLINE IntLanes types_of(const KernelParams& params, const DepthRangeTiles& 
                                    hn::And(hn::Le(r.u0, width), hn::Le(r.v0, height)));
   const auto is_inside = hn::And(hn::And(hn::Ge(r.u0, zero), hn::Ge(r.v0, zero)),
                                  hn::And(hn::Le(r.u1, width), hn::Le(r.v1, height)));
-  const Readings readings = readings_of(params, tiles, r);
+  const ReadingRange readings = range_of(params, tiles, r, 0);
 
-  const FloatLanes reach = depth_and_sigmas(params, readings.farthest, params.reach_sigma);
+  const FloatLanes reach = depth_and_sigmas(params, readings.farthest, params.model.reach_sigma);
   // Concave in the depth of the reading, so the smallest is at an end of the range.
   const FloatLanes before =
-      hn::Min(depth_and_sigmas(params, readings.nearest, -EvidenceTable::kInFrontSigma),
-              depth_and_sigmas(params, readings.farthest, -EvidenceTable::kInFrontSigma));
-  const auto is_hidden = hn::Gt(hn::Sub(b.z_near, hn::Set(f, params.hidden_m)), reach);
-  const auto is_passed = hn::Lt(hn::Add(b.z_far, hn::Set(f, params.passed_m)), before);
-  const auto is_clear = hn::Lt(hn::Add(b.z_far, hn::Set(f, params.clear_m)), before);
+      hn::Min(depth_and_sigmas(params, readings.nearest, -params.model.in_front_sigma),
+              depth_and_sigmas(params, readings.farthest, -params.model.in_front_sigma));
+  const auto is_hidden = hn::Gt(hn::Sub(b.z_near, hn::Set(f, params.model.hidden_m)), reach);
+  const auto is_passed = hn::Lt(hn::Add(b.z_far, hn::Set(f, params.model.passed_m)), before);
+  const auto is_clear = hn::Lt(hn::Add(b.z_far, hn::Set(f, params.model.clear_m)), before);
   const auto is_far = hn::Gt(b.z_near, hn::Set(f, kNearCells * params.voxel_m));
   const auto has_readings = hn::RebindMask(f, hn::Gt(readings.farthest, hn::Zero(i)));
   const auto has_all = hn::RebindMask(f, hn::Eq(readings.gaps, hn::Zero(i)));
@@ -180,6 +181,35 @@ void intersect(const KernelParams& params, const DepthRangeTiles& tiles, const C
   for (std::size_t k = 0; k < cubes.count; ++k) types[k] = static_cast<UpdateType>(lanes[k]);
 }
 
+void find_ranges(const ViewParams& view, const DepthRangeTiles& tiles, int finer,
+                 const CubeBatch& cubes, ImageRanges& ranges) {
+  constexpr Floats f;
+  constexpr Ints i;
+  const FloatLanes half_z = hn::Set(f, cubes.half_camera[2]), zero = hn::Zero(f);
+  const FloatLanes closest = hn::Add(half_z, hn::Set(f, 0.25F * view.voxel_m));
+  HWY_ALIGN std::int32_t in_view[CubeBatch::kMost];
+  HWY_ALIGN std::int32_t gaps[CubeBatch::kMost];
+  for (std::size_t k = 0; k < cubes.count; k += hn::Lanes(f)) {
+    // Lanes of no cube may lie anywhere.
+    const FloatLanes z = hn::Max(hn::Load(f, &cubes.z[k]), closest);
+    const Boxes boxes{hn::Load(f, &cubes.x[k]), hn::Load(f, &cubes.y[k]), hn::Sub(z, half_z),
+                      hn::Add(z, half_z),       cubes.half_camera[0],     cubes.half_camera[1]};
+    const Rectangles r = image_of(view, boxes);
+    const auto meets_image = hn::And(
+        hn::And(hn::Ge(r.u1, zero), hn::Ge(r.v1, zero)),
+        hn::And(hn::Lt(r.u0, hn::Set(f, view.width)), hn::Lt(r.v0, hn::Set(f, view.height))));
+    const ReadingRange range = range_of(view, tiles, r, finer);
+    hn::StoreU(range.nearest, i, &ranges.nearest[k]);
+    hn::StoreU(range.farthest, i, &ranges.farthest[k]);
+    hn::Store(range.gaps, i, gaps + k);
+    hn::Store(hn::VecFromMask(i, hn::RebindMask(i, meets_image)), i, in_view + k);
+  }
+  for (std::size_t k = 0; k < cubes.count; ++k) {
+    ranges.is_in_view[k] = in_view[k] != 0;
+    ranges.has_gaps[k] = gaps[k] != 0;
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -188,6 +218,12 @@ HWY_AFTER_NAMESPACE();
 namespace swiftlet {
 
 HWY_EXPORT(intersect);
+HWY_EXPORT(find_ranges);
+
+void find_image_ranges(const ViewParams& view, const DepthRangeTiles& tiles, int finer,
+                       const CubeBatch& cubes, ImageRanges& ranges) {
+  HWY_DYNAMIC_DISPATCH(find_ranges)(view, tiles, finer, cubes, ranges);
+}
 
 void intersect_cubes(const KernelParams& params, const DepthRangeTiles& tiles,
                      const CubeBatch& cubes, UpdateTypes& types) {

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "swiftlet/integrate/image/depth_range_pyramid.hpp"
-#include "swiftlet/integrate/projective/cell_kernels.hpp"
+#include "swiftlet/integrate/projective/kernel_params.hpp"
 
 namespace swiftlet {
 
@@ -38,6 +38,19 @@ struct CubeBatch {
   }
 };
 using UpdateTypes = std::array<UpdateType, CubeBatch::kMost>;
+
+/// The readings of the images of cubes: of the rectangles that their bounding boxes cover, rounded
+/// outwards to tiles of the pyramid.
+struct ImageRanges {
+  std::array<std::int32_t, CubeBatch::kMost> nearest, farthest;  ///< raw; farthest 0: none
+  std::array<bool, CubeBatch::kMost> is_in_view, has_gaps;
+};
+
+/// Finds them in tiles that are 2^finer times as fine as those that intersect_cubes() takes: at
+/// most as wide as the rectangle, and more than half as wide. REQUIRES: all of each cube is half a
+/// voxel or more before the camera. The same ranges on all instruction sets.
+void find_image_ranges(const ViewParams& view, const DepthRangeTiles& tiles, int finer,
+                       const CubeBatch& cubes, ImageRanges& ranges);
 
 /// Types each cube by the readings of the rectangle that its bounding box covers in the image.
 /// The same types on all instruction sets.

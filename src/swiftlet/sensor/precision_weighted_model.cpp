@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/sensor/chord_model.hpp"
+#include "swiftlet/sensor/precision_weighted_model.hpp"
 
 #include <algorithm>
 
 namespace swiftlet {
 
-ChordModel::Evidence ChordModel::of(double z_in_m, double z_out_m, double z_m,
-                                    double sigma_m) const {
+PrecisionWeightedModel::Evidence PrecisionWeightedModel::evaluate(double z_in_m, double z_out_m,
+                                                                  double z_m,
+                                                                  double sigma_m) const {
   const double before_m = z_in_m - double{kHidingCells} * voxel_m_ - z_m;
   const double left = std::clamp(double{kFadeSigma} - before_m / sigma_m, 0.0, 1.0);
   if (left == 0.0) return {};

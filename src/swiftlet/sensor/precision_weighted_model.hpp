@@ -5,20 +5,22 @@
 
 namespace swiftlet {
 
-/// What one depth reading says about a cell that its ray crosses, for sharp fusion (method 4).
+/// What one depth reading says about a cell that its ray crosses, weighted by its precision (method
+/// 6).
 ///
-/// The ray enters the cell at depth z_in and leaves it at z_out. A reading before the middle of
-/// that chord says that most of it lies in matter, one behind it that most of it is empty. How
-/// loudly, is the log of a likelihood ratio: of a surface half a cell before the middle to one half
-/// a cell behind it, c (z_mid - z) / sigma^2. So the sum over readings asks on which side of the
-/// middle their mean lies, weighted by precision: many blurred readings do not outvote a sharp one.
-/// A chord counts by its length; all rays through a cell together give it one observation.
+/// The ray enters the cell at depth z_in and leaves it at z_out: that is its intersection with the
+/// cell. A reading before the middle of it says that most of it lies in matter, one behind it that
+/// most of it is empty. How loudly, is the log of a likelihood ratio: of a surface half a cell
+/// before the middle to one half a cell behind it, c (z_mid - z) / sigma^2. So the sum over
+/// readings asks on which side of the middle their mean lies, weighted by precision: many blurred
+/// readings do not outvote a sharp one. A ray counts by the length of its intersection; all rays
+/// through a cell together give it one observation.
 ///
 /// Three things are not the ratio's. A reading well before the cell says nothing: the cell is
 /// hidden. One far behind it speaks twice as loud, as no pose is that much off: so what has left is
 /// cleared soon. And a cell in which rays end, be it behind its middle, holds some matter: it may
 /// become unknown, but not free.
-class ChordModel {
+class PrecisionWeightedModel {
  public:
   /// The noise of neighbouring readings is not independent: the ratio counts for less.
   static constexpr float kIndependence = 0.7F;
@@ -35,18 +37,18 @@ class ChordModel {
   static constexpr float kLeastEnds = 0.2F;
 
   /// `free_log_odds` (negative) is the least that a reading says that is not far behind the cell.
-  ChordModel(double voxel_m, double free_log_odds)
+  PrecisionWeightedModel(double voxel_m, double free_log_odds)
       : voxel_m_(voxel_m), free_log_odds_(free_log_odds) {}
 
   struct Evidence {
-    double log_odds = 0.0;  ///< for a chord of a cell's length
+    double log_odds = 0.0;  ///< for an intersection of a cell's length
     /// 1 - kLeastEnds for a ray that ends in the cell, -kLeastEnds for one that passes it, 0 for
-    /// one that does not reach it. If the rays of a frame add up to more than 0, the cell is held:
-    /// the frame does not call it free.
+    /// one that does not reach it. If the rays of a frame add up to more than 0, the frame does not
+    /// call the cell free.
     double ends = 0.0;
   };
   /// Of a reading at depth z_m with deviation sigma_m [m]. REQUIRES: z_in_m <= z_out_m, sigma > 0.
-  [[nodiscard]] Evidence of(double z_in_m, double z_out_m, double z_m, double sigma_m) const;
+  [[nodiscard]] Evidence evaluate(double z_in_m, double z_out_m, double z_m, double sigma_m) const;
 
  private:
   double voxel_m_;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
+// Cells that look at their readings, whatever these say of them by the model at hand. Included once
+// for every instruction set, so there is no #pragma once but Highway's toggle.
+#if defined(SWIFTLET_SAMPLED_CELLS_PRIVATE) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWIFTLET_SAMPLED_CELLS_PRIVATE
+#undef SWIFTLET_SAMPLED_CELLS_PRIVATE
+#else
+#define SWIFTLET_SAMPLED_CELLS_PRIVATE
+#endif
+
 #include <algorithm>
 
-#include "swiftlet/integrate/projective/cell_kernels.hpp"
-
-// Highway compiles this file once for every instruction set: SSE2 to AVX-512, NEON.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "swiftlet/integrate/projective/sampled_cells.cpp"
-#include <hwy/foreach_target.h>  // must come before highway.h
-#include <hwy/highway.h>
-
-#include "swiftlet/integrate/projective/chord_evidence_private.hpp"
 #include "swiftlet/integrate/projective/tile_evidence_private.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,10 +27,10 @@ constexpr std::size_t kFew = 4;
 constexpr float kFlat = 0.015F;
 
 /// One face of each of several cells, and what the samples on it say so far.
-template <class What>
+template <class Model>
 struct Face {
   FloatLanes middle[3];
-  typename What::OfFace cell;
+  typename Model::OfFace cell;
   FloatLanes sum, least, most, ends;
 
   HWY_INLINE Face() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
@@ -51,13 +51,13 @@ struct Face {
   HWY_INLINE void add(const KernelParams& params, const CellLook& look, const FaceSample& place) {
     const Sample s = sample_at<IsInside>(params, look.tiles, middle, place.to);
     const FloatLanes rays = hn::Mul(s.per_z, hn::Mul(s.per_z, s.per_z));
-    SampleEvidence result = What::evaluate(params, look.tiles, s, cell, place);
+    SampleEvidence result = Model::evaluate(params, look.tiles, s, cell, place);
     if constexpr (!IsInside) {
       result.log_odds = hn::IfThenElseZero(s.is_inside, result.log_odds);
       result.ends = hn::IfThenElseZero(s.is_inside, result.ends);
     }
     sum = hn::Add(sum, hn::Mul(rays, result.log_odds));
-    if constexpr (What::kHolds) ends = hn::Add(ends, hn::Mul(rays, result.ends));
+    if constexpr (Model::kMarksNotFree) ends = hn::Add(ends, hn::Mul(rays, result.ends));
     least = hn::Min(least, result.log_odds);
     most = hn::Max(most, result.log_odds);
   }
@@ -78,21 +78,21 @@ struct Sums {
 /// The sum over rays as an integral over the faces that the camera sees: each is crossed by
 /// |n q| / q_z^3 rays per area, and a ray counts DW, z^2 times a constant that the area cancels.
 /// Adds one face's part to the sums of a group of cells.
-template <class What, bool IsInside>
+template <class Model, bool IsInside>
 HWY_INLINE void add_face(const KernelParams& params, const CellLook& look, const CellLanes* cells,
                          std::size_t axis, Sums* sums) {
   constexpr Floats f;
-  Face<What> faces[kVectors];
-  for (std::size_t v = 0; v < kVectors; ++v) faces[v] = Face<What>(params, cells[v], axis);
+  Face<Model> faces[kVectors];
+  for (std::size_t v = 0; v < kVectors; ++v) faces[v] = Face<Model>(params, cells[v], axis);
   const std::span<const FaceSample> places = look.samples.on_face(axis);
   std::size_t count = std::min(places.size(), kFew);
   bool is_flat = true;
-  for (Face<What>& face : faces) {
+  for (Face<Model>& face : faces) {
     for (std::size_t k = 0; k < count; ++k) face.template add<IsInside>(params, look, places[k]);
     is_flat = is_flat && face.is_flat();
   }
   if (!is_flat) {
-    for (Face<What>& face : faces) {
+    for (Face<Model>& face : faces) {
       for (const FaceSample& place : places.subspan(count))
         face.template add<IsInside>(params, look, place);
     }
@@ -105,13 +105,14 @@ HWY_INLINE void add_face(const KernelParams& params, const CellLook& look, const
     const FloatLanes distance = hn::Max(hn::Zero(f), hn::Sub(hn::Abs(cells[v].world[axis]), half));
     const FloatLanes share = hn::Mul(distance, per_count);
     sums[v].log_odds = hn::Add(sums[v].log_odds, hn::Mul(share, faces[v].sum));
-    if constexpr (What::kHolds) sums[v].ends = hn::Add(sums[v].ends, hn::Mul(share, faces[v].ends));
+    if constexpr (Model::kMarksNotFree)
+      sums[v].ends = hn::Add(sums[v].ends, hn::Mul(share, faces[v].ends));
   }
 }
 
-template <class What, bool IsInside>
-HWY_INLINE void fill(const KernelParams& params, const CellCube& block, const CellList& list,
-                     const CellLook& look, FixedSteps* evidence) {
+template <class Model, bool IsInside>
+HWY_INLINE void fill_cells(const KernelParams& params, const CellCube& block, const CellList& list,
+                           const CellLook& look, FixedSteps* evidence) {
   constexpr Floats f;
   constexpr Ints i;
   const std::size_t lanes = hn::Lanes(f);
@@ -125,15 +126,15 @@ HWY_INLINE void fill(const KernelParams& params, const CellCube& block, const Ce
       sums[v].log_odds = sums[v].ends = hn::Zero(f);
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
-      add_face<What, IsInside>(params, look, cells, axis, sums);
+      add_face<Model, IsInside>(params, look, cells, axis, sums);
     HWY_ALIGN FixedSteps steps[kGroup];
     for (std::size_t v = 0; v < kVectors; ++v) {
       const FloatLanes z = hn::Max(hn::Zero(f), cells[v].camera[2]);
       IntLanes all = fixed_steps(params, hn::Mul(sums[v].log_odds, hn::Mul(z, z)));
-      if constexpr (What::kHolds) {
+      if constexpr (Model::kMarksNotFree) {
         const auto ends = hn::RebindMask(i, hn::Gt(sums[v].ends, hn::Zero(f)));
-        const auto is_held = hn::And(ends, hn::Lt(all, hn::Zero(i)));
-        all = hn::Or(all, hn::IfThenElseZero(is_held, hn::Set(i, kIsHeld)));
+        const auto is_not_free = hn::And(ends, hn::Lt(all, hn::Zero(i)));
+        all = hn::Or(all, hn::IfThenElseZero(is_not_free, hn::Set(i, kNotFree)));
       }
       hn::Store(all, i, steps + v * lanes);
     }
@@ -142,31 +143,19 @@ HWY_INLINE void fill(const KernelParams& params, const CellCube& block, const Ce
   }
 }
 
-template <class What>
-HWY_INLINE void fill(const KernelParams& params, const CellCube& block, const CellList& cells,
-                     const CellLook& look, FixedSteps* evidence) {
+/// Writes the evidence of listed cells. A Model of one sample has
+///
+///   OfFace         what it wants to know of a face of a cell, made of (params, cells, axis)
+///   kMarksNotFree  whether its evidence has `ends`, which may mark a cell as not free
+///   evaluate()     the SampleEvidence of a tile of readings about cells whose rays end in it
+template <class Model>
+HWY_INLINE void fill_sampled_cells(const KernelParams& params, const CellCube& block,
+                                   const CellList& cells, const CellLook& look,
+                                   FixedSteps* evidence) {
   if (look.is_inside_image) {
-    fill<What, true>(params, block, cells, look, evidence);
+    fill_cells<Model, true>(params, block, cells, look, evidence);
   } else {
-    fill<What, false>(params, block, cells, look, evidence);
-  }
-}
-
-void passed_cells(const KernelParams& params, const CellCube& block, const CellList& cells,
-                  const CellLook& look, FixedSteps* evidence) {
-  if (params.has_chords) {
-    fill<PassedChord>(params, block, cells, look, evidence);
-  } else {
-    fill<PassedSlice>(params, block, cells, look, evidence);
-  }
-}
-
-void sampled_cells(const KernelParams& params, const CellCube& block, const CellList& cells,
-                   const CellLook& look, FixedSteps* evidence) {
-  if (params.has_chords) {
-    fill<ChordEvidence>(params, block, cells, look, evidence);
-  } else {
-    fill<SliceEvidence>(params, block, cells, look, evidence);
+    fill_cells<Model, false>(params, block, cells, look, evidence);
   }
 }
 
@@ -174,21 +163,4 @@ void sampled_cells(const KernelParams& params, const CellCube& block, const Cell
 }  // namespace swiftlet::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
-namespace swiftlet {
-
-HWY_EXPORT(passed_cells);
-HWY_EXPORT(sampled_cells);
-
-void fill_passed(const KernelParams& params, const CellCube& block, const CellList& cells,
-                 const CellLook& look, FixedSteps* evidence) {
-  HWY_DYNAMIC_DISPATCH(passed_cells)(params, block, cells, look, evidence);
-}
-
-void fill_sampled(const KernelParams& params, const CellCube& block, const CellList& cells,
-                  const CellLook& look, FixedSteps* evidence) {
-  HWY_DYNAMIC_DISPATCH(sampled_cells)(params, block, cells, look, evidence);
-}
-
-}  // namespace swiftlet
 #endif

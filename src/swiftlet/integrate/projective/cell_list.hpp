@@ -9,30 +9,10 @@
 
 #include "swiftlet/integrate/image/depth_mean_kernels.hpp"
 #include "swiftlet/integrate/projective/cube_view.hpp"
-#include "swiftlet/integrate/projective/evidence_table.hpp"
 #include "swiftlet/integrate/projective/face_samples.hpp"
-#include "swiftlet/integrate/step_rounding.hpp"
+#include "swiftlet/map/voxel_block.hpp"
 
 namespace swiftlet {
-
-/// What the kernels know of one frame and its sensor. Lengths in metres, images in pixels.
-struct KernelParams {
-  std::array<Float3, 3> world_axis;  ///< of the world, in camera axes
-  float fx, fy;
-  float u_offset, v_offset;  ///< principal point + 0.5: floor() of a place is its pixel
-  float width, height;
-  float voxel_m;
-  bool has_chords;  ///< ChordModel, not InverseSensorModel
-  /// Cells whose cubes lie farther than a reading's depth + reach_sigma deviations + hidden_m are
-  /// hidden by it, those nearer than its depth - kInFrontSigma deviations - passed_m passed, and so
-  /// clearly that they get clear_log_odds with clear_m.
-  float hidden_m, passed_m, clear_m, reach_sigma;
-  float unit_m, sigma_per_z2;
-  float per_sigma;           ///< 1 / sigma_per_z2
-  const float* model;        ///< EvidenceTable; not with chords
-  float steps_per_log_odds;  ///< FixedSteps
-  float free_log_odds, clear_log_odds;
-};
 
 /// A cube of cells within a block, relative to the camera.
 struct CellCube {
@@ -82,20 +62,5 @@ struct CellLook {
   DepthMeanTiles tiles;
   bool is_inside_image;  ///< all of the cells: no sample needs to ask
 };
-
-// Each fills the evidence of cells, every cell in a lane of its own, on the widest vectors of this
-// machine. The same bits on all of them: a lane does the same operations in the same order whatever
-// the number of lanes. Evidence is that of a whole frame (method 6); `block` is the whole block.
-
-/// Cells that every ray through them passes. REQUIRES: z > 2 cells.
-void fill_free(const KernelParams& params, const CellCube& cube, FixedSteps* evidence);
-
-/// Cells that every reading passes: free as far as the pixels of their image have one.
-void fill_passed(const KernelParams& params, const CellCube& block, const CellList& cells,
-                 const CellLook& look, FixedSteps* evidence);
-
-/// Any cells: the mean of the inverse sensor model over the tiles at samples of their image.
-void fill_sampled(const KernelParams& params, const CellCube& block, const CellList& cells,
-                  const CellLook& look, FixedSteps* evidence);
 
 }  // namespace swiftlet

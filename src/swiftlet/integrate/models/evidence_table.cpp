@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/integrate/projective/evidence_table.hpp"
+#include "swiftlet/integrate/models/evidence_table.hpp"
 
 #include <array>
 #include <bit>

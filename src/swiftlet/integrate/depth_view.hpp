@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "swiftlet/base/frame_of.hpp"
+#include "swiftlet/condition/conditioned_depth.hpp"
+#include "swiftlet/frame/intrinsics.hpp"
+#include "swiftlet/integrate/image/depth_range_pyramid.hpp"
+
+namespace swiftlet {
+
+/// One conditioned frame, as it is integrated. Refers to what it was made of, which must outlive
+/// it.
+struct DepthView {
+  const ConditionedDepth& depth;
+  const DepthRangePyramid& pyramid;     ///< of depth.raw
+  const PinholeIntrinsics& intrinsics;  ///< of the full image
+  const Transform<World, Camera>& T_world_camera;
+  std::uint64_t frame_number;  ///< seeds the rounding; counts frames of the map from 0
+};
+
+}  // namespace swiftlet
