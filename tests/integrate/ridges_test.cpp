@@ -17,12 +17,16 @@ std::uint16_t pixel_or_none(const Image<std::uint16_t>& image, int u, int v) {
   return is_inside ? image.at(u, v) : std::uint16_t{0};
 }
 
+float clearly_behind(float z, const RidgeLimits& limits) {
+  return z + std::max(limits.least_behind, limits.behind_per_square * z * z);
+}
+
 /// The definition, pixel by pixel.
 bool is_ridge(const Image<std::uint16_t>& image, int u, int v, int reach,
               const RidgeLimits& limits) {
   const int z = pixel_or_none(image, u, v);
   if (z == 0) return false;
-  const float far = limits.far_behind(static_cast<float>(z));
+  const float far = clearly_behind(static_cast<float>(z), limits);
   const auto is_open = [&](int a, int b) {
     const auto blocks = [&](int other) { return other != 0 && static_cast<float>(other) <= far; };
     return !blocks(a) && !blocks(b) && (a != 0 || b != 0);

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "swiftlet/condition/neighbour_kernels.hpp"
+#include "swiftlet/integrate/image/depth_range_pyramid.hpp"
 
 namespace swiftlet {
 
@@ -18,16 +19,13 @@ struct RidgeLimits {
   static constexpr float kLeastReach_px = 2.0F, kMostReach_px = 64.0F;
 
   float half_cell_px;  // at a depth of one unit
+  /// Clearly behind a reading z is what lies farther than z + max(least_behind, this * z^2).
   float least_behind, behind_per_square;
 
   /// How far to the side half a cell is, for a reading.
   [[nodiscard]] int reach_px(int z) const {
     const float reach = std::floor(half_cell_px / static_cast<float>(z)) + 1.0F;
     return static_cast<int>(std::clamp(reach, kLeastReach_px, kMostReach_px));
-  }
-  /// What is clearly behind a reading.
-  [[nodiscard]] float far_behind(float z) const {
-    return z + std::max(least_behind, behind_per_square * z * z);
   }
 };
 
@@ -41,6 +39,11 @@ struct RidgeTile {
 };
 /// Bit i of row k: pixel (u + i, v + k) lies on a ridge.
 using RidgeBits = std::array<std::uint8_t, RidgeTile::kEdge>;
+
+/// Whether the tiles of a level of the pyramid admit a ridge in one of them: something clearly
+/// behind its nearest reading, in its row or column within reach.
+[[nodiscard]] bool may_have_ridge(const DepthRangeTiles& tiles, std::size_t level, int tile_u,
+                                  int tile_v, const RidgeLimits& limits);
 
 /// Finds the readings with something clearly farther, or nothing, to both of their sides or above
 /// and below; nothing at all at neither does not count, as beside a near object a stereo camera is

@@ -4,10 +4,11 @@
 #include "swiftlet/integrate/upkeep/occupancy_decay.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
+
+#include "swiftlet/integrate/projective/range_image_intersector.hpp"
 
 namespace swiftlet {
 namespace {
@@ -33,8 +34,117 @@ bool is_any_above_unknown(const VoxelBlock& block) {
   return (all & kAboveUnknown) != 0;
 }
 
-int pixel(float place, int size) {
-  return std::clamp(static_cast<int>(std::floor(place)), 0, size - 1);
+/// One frame, as decay looks at it.
+class DecayView {
+ public:
+  DecayView(const DepthView& view, const OccupancyDecay::Moment& moment, double voxel_m)
+      : cubes_(view, voxel_m),
+        params_(view_params(cubes_, view.depth.unit_m)),
+        tiles_(view.pyramid.tiles()),
+        raw_(view.depth.raw),
+        sigma_per_z2_(static_cast<float>(moment.sigma_per_z2)),
+        max_range_m_(static_cast<float>(moment.max_range_m)) {}
+
+  [[nodiscard]] CubeInView cube(const VoxelIndex& first, int edge) const {
+    return cubes_.cube(first, edge);
+  }
+  /// Whether some cell of a block may show nothing.
+  [[nodiscard]] bool may_show_nothing(const CubeInView& block) const;
+  /// Whether a cell is in view and no reading of the pixel in its middle is of it: that settles
+  /// most, they are seen or hidden.
+  [[nodiscard]] bool may_be_empty(const CubeInView& cell) const;
+  /// For cells that may be empty: whether part of their image has no reading, and no reading is at
+  /// them or before them.
+  void find_empty(const CubeBatch& cells, std::array<bool, CubeBatch::kMost>& is_empty) const;
+
+ private:
+  /// Tiles of half the width: more of what a cell's image covers, less of what lies beside it.
+  static constexpr int kFiner = 1;
+
+  [[nodiscard]] float behind_m(float z_far) const {
+    return z_far + kBandSigma * sigma_per_z2_ * z_far * z_far;
+  }
+  [[nodiscard]] float depth_m(std::int32_t reading) const {
+    return params_.unit_m * static_cast<float>(reading);
+  }
+
+  CubeView cubes_;
+  ViewParams params_;
+  DepthRangeTiles tiles_;
+  const Image<std::uint16_t>& raw_;
+  float sigma_per_z2_, max_range_m_;
+};
+
+bool DecayView::may_show_nothing(const CubeInView& block) const {
+  if (block.z_far() <= 0.0F) return false;
+  if (block.z_near() < params_.voxel_m) return true;  // too near to tell
+  if (block.z_near() > max_range_m_) return false;
+  CubeBatch batch;
+  batch.half_camera = block.half_camera;
+  batch.add(block.p_camera);
+  ImageRanges ranges;
+  find_image_ranges(params_, tiles_, kFiner, batch, ranges);
+  return ranges.is_in_view[0] && ranges.has_gaps[0];
+}
+
+bool DecayView::may_be_empty(const CubeInView& cell) const {
+  const float z_m = cell.p_camera[2], z_far = cell.z_far();
+  if (cell.z_near() < 0.5F * params_.voxel_m || z_far > max_range_m_) return false;
+  const float u = params_.fx * cell.p_camera[0] / z_m + params_.u_offset;
+  const float v = params_.fy * cell.p_camera[1] / z_m + params_.v_offset;
+  const bool is_in_view = u >= 0.0F && v >= 0.0F && u < params_.width && v < params_.height;
+  if (!is_in_view) return false;
+  const std::uint16_t reading = raw_.at(static_cast<int>(u), static_cast<int>(v));
+  return reading == 0 || depth_m(reading) > behind_m(z_far);
+}
+
+void DecayView::find_empty(const CubeBatch& cells,
+                           std::array<bool, CubeBatch::kMost>& is_empty) const {
+  ImageRanges ranges;
+  find_image_ranges(params_, tiles_, kFiner, cells, ranges);
+  for (std::size_t i = 0; i < cells.count; ++i) {
+    const bool is_behind =
+        ranges.farthest[i] == 0 ||
+        depth_m(ranges.nearest[i]) >= behind_m(cells.z[i] + cells.half_camera[2]);
+    is_empty[i] = ranges.has_gaps[i] && is_behind;
+  }
+}
+
+/// Takes steps off the cells of a block where nothing is. Returns how many.
+std::size_t decay_block(const DecayView& view, const BlockIndex& index, std::int32_t steps,
+                        RollingMap& map) {
+  const VoxelBlock* known = map.find(index);
+  const VoxelIndex corner = first_voxel(index);
+  if (!is_any_above_unknown(*known) || !view.may_show_nothing(view.cube(corner, kBlockEdge)))
+    return 0;
+  std::size_t count = 0;
+  for (int first = 0; first < kBlockVoxels; first += kBlockEdge) {
+    if ((row_of_cells(*known, first) & kAboveUnknown) == 0) continue;
+    CubeBatch row;
+    std::array<std::size_t, kBlockEdge> places{};
+    for (int x = 0; x < kBlockEdge; ++x) {
+      const std::size_t place = static_cast<std::size_t>(first) + static_cast<std::size_t>(x);
+      if (known->cells[place] <= kUnknownCell) continue;
+      const CubeInView cell = view.cube({corner.x + x, corner.y + first / kBlockEdge % kBlockEdge,
+                                         corner.z + first / (kBlockEdge * kBlockEdge)},
+                                        1);
+      if (!view.may_be_empty(cell)) continue;
+      row.half_camera = cell.half_camera;
+      places[row.count] = place;
+      row.add(cell.p_camera);
+    }
+    if (row.count == 0) continue;
+    std::array<bool, CubeBatch::kMost> is_empty{};
+    view.find_empty(row, is_empty);
+    for (std::size_t i = 0; i < row.count; ++i) {
+      if (!is_empty[i]) continue;
+      QuantizedLogOdds& cell = map.writable(index).cells[places[i]];
+      cell = static_cast<QuantizedLogOdds>(std::max<std::int32_t>(cell - steps, kUnknownCell));
+      ++count;
+    }
+    known = map.find(index);  // writing may have moved it
+  }
+  return count;
 }
 
 }  // namespace
@@ -52,109 +162,13 @@ std::int32_t OccupancyDecay::steps_of(const Moment& moment) {
   return static_cast<std::int32_t>(whole);
 }
 
-/// By the bounding box of the cube, rounded outwards to tiles that are at most half as wide as its
-/// image (or 4 pixels). Looks no further once a reading is nearer than `behind_m`.
-OccupancyDecay::Sight OccupancyDecay::look(const CubeView& view, const CubeInView& cube,
-                                           float behind_m) const {
-  const float z_near = cube.z_near(), z_far = cube.z_far();
-  if (z_near < 0.5F * view.voxel_m() || z_near > max_range_m_) return {};
-  const auto place = [&](float edge, bool is_low, float focal, float centre) {
-    const bool is_outward = is_low == (edge < 0.0F);
-    return focal * edge / (is_outward ? z_near : z_far) + centre + 0.5F;
-  };
-  const Float3 &p = cube.p_camera, &half = cube.half_camera;
-  const float left = place(p[0] - half[0], true, view.fx(), view.cx());
-  const float right = place(p[0] + half[0], false, view.fx(), view.cx());
-  const float top = place(p[1] - half[1], true, view.fy(), view.cy());
-  const float bottom = place(p[1] + half[1], false, view.fy(), view.cy());
-  if (right < 0.0F || bottom < 0.0F || left >= static_cast<float>(view.width()) ||
-      top >= static_cast<float>(view.height()))
-    return {};
-
-  const int u0 = pixel(left, view.width()), u1 = pixel(right, view.width());
-  const int v0 = pixel(top, view.height()), v1 = pixel(bottom, view.height());
-  const DepthRangeTiles tiles = pyramid_->tiles();
-  const auto longest = static_cast<unsigned>(std::max(u1 - u0, v1 - v0) + 1);
-  const int half_width = static_cast<int>(std::bit_width(longest)) - 2;  // its logarithm
-  const int level = std::clamp(half_width - DepthRangePyramid::kTileShift, 0, tiles.levels - 1);
-  const int shift = level + DepthRangePyramid::kTileShift;
-  const auto at = static_cast<std::size_t>(level);
-  Sight sight{.is_in_view = true};
-  for (int y = v0 >> shift; y <= v1 >> shift; ++y) {
-    const std::int32_t* row = tiles.words + tiles.first[at] + std::ptrdiff_t{y} * tiles.width[at];
-    for (int x = u0 >> shift; x <= u1 >> shift; ++x) {
-      const auto tile = static_cast<std::uint32_t>(row[x]);
-      sight.has_gaps = sight.has_gaps || (tile & DepthRangePyramid::kHasGaps) != 0;
-      if (tile >> 16U == 0) continue;
-      sight.nearest_m = std::min(sight.nearest_m, depth_m(tile & 0xfffeU));
-      if (sight.nearest_m < behind_m) return sight;
-    }
-  }
-  return sight;
-}
-
-/// Whether some cell of a cube may show nothing.
-bool OccupancyDecay::may_show_nothing(const CubeView& view, const CubeInView& cube) const {
-  if (cube.z_far() <= 0.0F) return false;
-  if (cube.z_near() < view.voxel_m()) return true;  // too near to tell
-  const Sight sight = look(view, cube, 0.0F);
-  return sight.is_in_view && sight.has_gaps;
-}
-
-bool OccupancyDecay::is_nothing_there(const CubeView& view, const CubeInView& cell) const {
-  const float z_m = cell.p_camera[2], z_far = cell.z_far();
-  if (cell.z_near() < 0.5F * view.voxel_m() || z_far > max_range_m_) return false;
-  const float behind_m = z_far + kBandSigma * sigma_per_z2_ * z_far * z_far;
-  // The pixel in the middle settles most cells: they are seen or hidden.
-  const float u = view.fx() * cell.p_camera[0] / z_m + view.cx() + 0.5F;
-  const float v = view.fy() * cell.p_camera[1] / z_m + view.cy() + 0.5F;
-  const bool is_in_view = u >= 0.0F && v >= 0.0F && u < static_cast<float>(view.width()) &&
-                          v < static_cast<float>(view.height());
-  if (!is_in_view) return false;
-  const std::uint16_t reading = raw_->at(static_cast<int>(u), static_cast<int>(v));
-  if (reading != 0 && depth_m(reading) <= behind_m) return false;
-  const Sight sight = look(view, cell, behind_m);
-  return sight.has_gaps && sight.nearest_m >= behind_m;
-}
-
-/// Takes steps off the cells of a block where nothing is. Returns how many.
-std::size_t OccupancyDecay::decay_block(const CubeView& view, const BlockIndex& index,
-                                        std::int32_t steps, RollingMap& map) const {
-  const VoxelBlock* known = map.find(index);
-  const CubeInView whole = view.cube(first_voxel(index), kBlockEdge);
-  if (!is_any_above_unknown(*known) || !may_show_nothing(view, whole)) return 0;
-  const VoxelIndex corner = first_voxel(index);
-  VoxelBlock* block = nullptr;
-  std::size_t count = 0;
-  for (int first = 0; first < kBlockVoxels; first += kBlockEdge) {
-    if ((row_of_cells(*known, first) & kAboveUnknown) == 0) continue;
-    for (int x = 0; x < kBlockEdge; ++x) {
-      const std::size_t place = static_cast<std::size_t>(first) + static_cast<std::size_t>(x);
-      if (known->cells[place] <= kUnknownCell) continue;
-      const VoxelIndex cell{corner.x + x, corner.y + first / kBlockEdge % kBlockEdge,
-                            corner.z + first / (kBlockEdge * kBlockEdge)};
-      if (!is_nothing_there(view, view.cube(cell, 1))) continue;
-      if (block == nullptr) known = block = &map.writable(index);
-      block->cells[place] = static_cast<QuantizedLogOdds>(
-          std::max<std::int32_t>(block->cells[place] - steps, kUnknownCell));
-      ++count;
-    }
-  }
-  return count;
-}
-
 std::size_t OccupancyDecay::apply(const DepthView& view, const Moment& moment, RollingMap& map) {
   const std::int32_t steps = steps_of(moment);
   if (steps == 0) return 0;
-  pyramid_ = &view.pyramid;
-  raw_ = &view.depth.raw;
-  unit_m_ = view.depth.unit_m;
-  sigma_per_z2_ = static_cast<float>(moment.sigma_per_z2);
-  max_range_m_ = static_cast<float>(moment.max_range_m);
-  const CubeView cubes(view, map.voxel_m());
+  const DecayView frame(view, moment, map.voxel_m());
   std::size_t count = 0;
   map.for_each_known_block([&](const BlockIndex& index, const VoxelBlock&) {
-    count += decay_block(cubes, index, steps, map);
+    count += decay_block(frame, index, steps, map);
   });
   return count;
 }

@@ -6,12 +6,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "swiftlet/base/time.hpp"
-#include "swiftlet/integrate/integrator.hpp"
-#include "swiftlet/integrate/projective/cube_view.hpp"
+#include "swiftlet/integrate/depth_view.hpp"
+#include "swiftlet/map/rolling_map.hpp"
 
 namespace swiftlet {
 
@@ -49,28 +48,10 @@ class OccupancyDecay {
     std::optional<Stamp> last;
     double carried = 0.0;  // steps
   };
-  /// What the readings of the image of a cube say.
-  struct Sight {
-    bool is_in_view = false;
-    bool has_gaps = false;
-    float nearest_m = std::numeric_limits<float>::infinity();
-  };
   [[nodiscard]] std::int32_t steps_of(const Moment& moment);
-  [[nodiscard]] Sight look(const CubeView& view, const CubeInView& cube, float behind_m) const;
-  [[nodiscard]] bool may_show_nothing(const CubeView& view, const CubeInView& cube) const;
-  [[nodiscard]] bool is_nothing_there(const CubeView& view, const CubeInView& cell) const;
-  std::size_t decay_block(const CubeView& view, const BlockIndex& index, std::int32_t steps,
-                          RollingMap& map) const;
-  [[nodiscard]] float depth_m(std::uint32_t reading) const {
-    return unit_m_ * static_cast<float>(reading);
-  }
 
   double decay_s_;
   std::array<Clock, 256> clocks_{};  // by camera
-  // Of this frame.
-  const DepthRangePyramid* pyramid_ = nullptr;
-  const Image<std::uint16_t>* raw_ = nullptr;
-  float unit_m_ = 0.0F, sigma_per_z2_ = 0.0F, max_range_m_ = 0.0F;
 };
 
 }  // namespace swiftlet

@@ -33,27 +33,6 @@ void ThinObstacleFilter::add(const VoxelIndex& cell, const RollingMap& map) {
   ++slot.hits;
 }
 
-bool ThinObstacleFilter::may_have_ridge(const DepthRangeTiles& tiles, int tile_u,
-                                        int tile_v) const {
-  const std::int32_t* words = tiles.words + tiles.first[kLevel];
-  const int width = tiles.width[kLevel];
-  const int height = (tiles.first[kLevel + 1] - tiles.first[kLevel]) / width;
-  const auto word = [&](int u, int v) { return static_cast<std::uint32_t>(words[v * width + u]); };
-  if (word(tile_u, tile_v) >> 16U == 0) return false;  // no reading
-  // The nearest reading looks farthest to the side, and needs the least behind it.
-  const auto nearest = static_cast<int>(word(tile_u, tile_v) & 0xfffeU);
-  const int reach = (limits_.reach_px(nearest) + kTile - 1) / kTile;
-  const float far = limits_.far_behind(static_cast<float>(nearest));
-  const auto is_behind = [&](int u, int v) { return static_cast<float>(word(u, v) >> 16U) > far; };
-  for (int u = std::max(0, tile_u - reach); u <= std::min(width - 1, tile_u + reach); ++u) {
-    if (is_behind(u, tile_v)) return true;
-  }
-  for (int v = std::max(0, tile_v - reach); v <= std::min(height - 1, tile_v + reach); ++v) {
-    if (is_behind(tile_u, v)) return true;
-  }
-  return false;
-}
-
 void ThinObstacleFilter::collect(const DepthView& view, const RollingMap& map) {
   ++frame_;
   touched_.clear();
@@ -68,7 +47,7 @@ void ThinObstacleFilter::collect(const DepthView& view, const RollingMap& map) {
   image_.take(depth.raw);
   for (int v = 0; v * kTile < depth.raw.height(); ++v) {
     for (int u = 0; u * kTile < depth.raw.width(); ++u) {
-      if (may_have_ridge(tiles, u, v)) collect_tile(view, tiles, u, v, map);
+      if (may_have_ridge(tiles, kLevel, u, v, limits_)) collect_tile(view, tiles, u, v, map);
     }
   }
 }

@@ -3,14 +3,13 @@
 
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "swiftlet/integrate/depth_view.hpp"
 #include "swiftlet/integrate/image/ridge_kernels.hpp"
-#include "swiftlet/integrate/integrator.hpp"
+#include "swiftlet/map/rolling_map.hpp"
 
 namespace swiftlet {
 
@@ -52,8 +51,6 @@ class ThinObstacleFilter {
     int hits = 0;
     QuantizedLogOdds before = kUnknownCell;
   };
-  /// A square of pixels; false: there is no ridge in it.
-  [[nodiscard]] bool may_have_ridge(const DepthRangeTiles& tiles, int tile_u, int tile_v) const;
   void collect_tile(const DepthView& view, const DepthRangeTiles& tiles, int tile_u, int tile_v,
                     const RollingMap& map);
   void add_reading(const DepthView& view, int u, int v, const RollingMap& map);

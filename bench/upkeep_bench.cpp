@@ -51,7 +51,7 @@ void distortion(benchmark::State& state) {
   for (auto _ : state) step->apply(depth);
 }
 
-void ghosts(benchmark::State& state) {
+void occupancy_decay(benchmark::State& state) {
   if (frames().empty()) return state.SkipWithError("the simulated rig was not built");
   MapperConfig config;
   config.map.voxel_m = 0.001 * static_cast<double>(state.range(0));
@@ -74,6 +74,6 @@ void ghosts(benchmark::State& state) {
 
 BENCHMARK(gate)->Unit(benchmark::kMillisecond);
 BENCHMARK(distortion)->Unit(benchmark::kMillisecond);
-BENCHMARK(ghosts)->Arg(200)->Arg(100)->Arg(50)->Unit(benchmark::kMillisecond);
+BENCHMARK(occupancy_decay)->Arg(200)->Arg(100)->Arg(50)->Unit(benchmark::kMillisecond);
 
 }  // namespace
