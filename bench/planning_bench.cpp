@@ -98,7 +98,7 @@ void sweep_corridor(benchmark::State& state) {
       block.cells[static_cast<std::size_t>(i)] = is_wall ? 230 : 20;
     }
   });
-  const auto snapshot = map->snapshot(1);
+  const auto snapshot = map->snapshot({1});
   const auto body = BodyShape::sphere(0.4);
   const double along_m = 2.5 / std::hypot(1.0, 0.5);
   const std::array<Eigen::Vector3d, 2> path{Eigen::Vector3d(-along_m, -0.5 * along_m, 0),

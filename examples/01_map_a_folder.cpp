@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "swiftlet/pipeline/mapper.hpp"
-#include "swiftlet/query/occupancy_query.hpp"
+#include "swiftlet/query/cell_counts.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace {
@@ -29,7 +29,7 @@ swiftlet::Status map_recording(const char* address) {
   }
 
   const auto map = mapper->snapshot();
-  const auto cells = swiftlet::count_cells(*map, config.occupancy);
+  const auto cells = swiftlet::count_cells(*map);
   std::printf("%llu frames: %zu free cells, %zu occupied\n",
               static_cast<unsigned long long>(mapper->frame_count()), cells.free, cells.occupied);
   return swiftlet::Done{};

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "swiftlet/pipeline/mapper.hpp"
-#include "swiftlet/query/occupancy_query.hpp"
 #include "swiftlet/query/ray_query.hpp"
 #include "swiftlet/source/sources.hpp"
 
@@ -19,14 +18,13 @@ constexpr const char* kNames[] = {"free", "unknown", "occupied"};
 
 /// The planner: has its own thread and its own reader, and always sees whole frames.
 void plan(const swiftlet::MapReader& reader, const std::atomic<bool>& is_flying) {
-  const swiftlet::OccupancyThresholds thresholds;
   std::uint64_t last_seen = 0;
   while (is_flying) {
     const auto map = reader.latest();
     if (!map || map->frame_count() < last_seen + 20) continue;
     last_seen = map->frame_count();
-    const auto here = swiftlet::occupancy_at(*map, {1.0, 0.0, 0.0}, thresholds);
-    const auto ahead = swiftlet::cast_ray(*map, {0.3, 0.0, 0.0}, {5.0, 0.0, 0.0}, thresholds);
+    const auto here = map->occupancy(Eigen::Vector3d(1.0, 0.0, 0.0));
+    const auto ahead = swiftlet::cast_ray(*map, {0.3, 0.0, 0.0}, {5.0, 0.0, 0.0});
     std::printf("frame %llu: 1 m ahead is %s; the way is clear for %.2f m, then %s\n",
                 static_cast<unsigned long long>(last_seen), kNames[static_cast<int>(here)],
                 ahead.distance_m, kNames[static_cast<int>(ahead.state)]);

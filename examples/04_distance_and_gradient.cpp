@@ -37,7 +37,7 @@ int main() {
     return 2;
   }
   map_a_wall(*map);
-  map->publish(3);  // Mapper::integrate() does this after every frame
+  map->publish({3});  // Mapper::integrate() does this after every frame
 
   for (;;) {  // the planner's thread: always a whole field
     const auto field = fields->latest();

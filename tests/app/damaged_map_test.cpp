@@ -11,7 +11,7 @@
 
 #include "app/support/run_program.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/store/map_file/save_blocks.hpp"
+#include "swiftlet/store/map_file/save_map.hpp"
 #include "swiftlet/store/map_file/saved_map.hpp"
 #include "swiftlet/store/map_file/sqlite.hpp"
 
@@ -25,13 +25,13 @@ constexpr int kBlocks = 60;
 
 /// Blocks of wall and of free space in turn.
 void write_map(const std::filesystem::path& path) {
-  std::vector<std::pair<BlockIndex, VoxelBlock>> blocks;
+  BlockMap map({0.1, {}, 1});
   for (int i = 0; i < kBlocks; ++i) {
     VoxelBlock block;
     block.cells.fill(static_cast<QuantizedLogOdds>(i % 2 == 0 ? 250 : 10));
-    blocks.push_back({{i % 8, i / 8, 0}, block});
+    map.put({i % 8, i / 8, 0}, block);
   }
-  ASSERT_TRUE(save_blocks(path, blocks, {{"voxel_m", "0.1"}, {"frames", "1"}}));
+  ASSERT_TRUE(save_map(path, map));
 }
 
 void run_sql_in(const std::filesystem::path& path, const std::string& sql) {

@@ -9,8 +9,8 @@
 
 #include "support/temp_folder.hpp"
 #include "swiftlet/app/report/checked_files.hpp"
-#include "swiftlet/store/map_file/save_blocks.hpp"
-#include "swiftlet/store/map_reader.hpp"
+#include "swiftlet/store/map_file/save_map.hpp"
+#include "swiftlet/store/map_loader.hpp"
 #include "swiftlet/store/opened_map.hpp"
 
 namespace swiftlet::app {
@@ -58,12 +58,10 @@ TEST(FileKind, is_told_by_what_is_in_the_file_whatever_its_name) {
 
 TEST(FileKind, maps_of_both_kinds_are_opened_under_any_name_and_others_are_named) {
   const test::TempFolder folder;
-  VoxelBlock block;
-  block.clear();
-  block.cells[0] = kOccupiedCell;
-  ASSERT_TRUE(save_blocks(folder / "map.bt", std::vector{std::pair{BlockIndex{}, block}},
-                          {{"voxel_m", "0.1"}, {"frames", "1"}}));
-  EXPECT_EQ(read_whole_map((folder / "map.bt").string())->blocks.size(), 1U);
+  BlockMap map({0.1, {}, 1});
+  map.set({}, kOccupiedCell);
+  ASSERT_TRUE(save_map(folder / "map.bt", map));
+  EXPECT_EQ(read_whole_map((folder / "map.bt").string())->block_count(), 1U);
   std::string small = kOctomap;  // one leaf of a whole eighth of the world is too much to lay out
   test::write_file(folder / "large.swl", small);
   EXPECT_THAT(open_map((folder / "large.swl").string()).error().what, HasSubstr("too many"));
@@ -106,10 +104,8 @@ TEST(CheckedFiles, rigs_scenes_and_configs_are_known_by_their_keys_and_faults_ha
 
 TEST(CheckedFiles, a_map_whose_config_the_readers_refuse_is_not_called_good) {
   const test::TempFolder folder;
-  VoxelBlock block;
-  block.clear();
-  ASSERT_TRUE(save_blocks(folder / "a.swl", std::vector{std::pair{BlockIndex{}, block}},
-                          {{"voxel_m", "0.1"}, {"frames", "1"}, {"config", "map: &a {x: *a}\n"}}));
+  const MapMeta meta{{"voxel_m", "0.1"}, {"frames", "1"}, {"config", "map: &a {x: *a}\n"}};
+  ASSERT_TRUE(MapFile::create(folder / "a.swl", false, meta));
   EXPECT_THAT(faults_in(folder / "a.swl"), ElementsAre(HasSubstr("within what it repeats")));
   EXPECT_FALSE(read_whole_map((folder / "a.swl").string()));
 }

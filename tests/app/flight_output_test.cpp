@@ -14,7 +14,7 @@
 #include "app/support/run_program.hpp"
 #include "support/recordings.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/store/map_file/save_blocks.hpp"
+#include "swiftlet/store/map_file/save_map.hpp"
 
 namespace swiftlet::test {
 namespace {
@@ -25,12 +25,10 @@ using ::testing::Not;
 class FlightOutput : public ProgramFixture {};
 
 TEST_F(FlightOutput, of_a_flight_that_was_cut_off_is_told_so_by_info) {
-  VoxelBlock block;
-  block.clear();
+  BlockMap map({0.1, {}, 1});
+  map.set({}, kUnknownCell);
   for (const std::string flight : {"under way", "saved"}) {
-    ASSERT_TRUE(save_blocks(folder_ / (flight + ".swl"),
-                            std::vector{std::pair{BlockIndex{}, block}},
-                            {{"voxel_m", "0.1"}, {"frames", "1"}, {"flight", flight}}));
+    ASSERT_TRUE(save_map(folder_ / (flight + ".swl"), map, {{"flight", flight}}));
   }
   const Ended cut = swiftlet({"info", "under way.swl"});
   EXPECT_THAT(cut.out, HasSubstr("the flight was cut off"));

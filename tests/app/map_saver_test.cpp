@@ -8,7 +8,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <map>
 
 #include "support/seeds.hpp"
 #include "support/temp_folder.hpp"
@@ -17,16 +16,16 @@
 namespace swiftlet::app {
 namespace {
 
-station::MapCopy random_copy(test::Random& random, std::size_t count) {
-  std::map<BlockIndex, VoxelBlock> blocks;
-  while (blocks.size() < count) {
+BlockMap random_copy(test::Random& random, std::size_t count) {
+  BlockMap map({0.05, {}, 77});
+  while (map.block_count() < count) {
     VoxelBlock block;
     for (QuantizedLogOdds& cell : block.cells)
       cell = static_cast<QuantizedLogOdds>(random.integer(0, 255));
     const auto place = [&] { return random.integer(-100'000, 100'000); };
-    blocks[{place(), place(), place()}] = block;
+    map.put({place(), place(), place()}, block);
   }
-  return {0.05, 77, {blocks.begin(), blocks.end()}};
+  return map;
 }
 
 TEST(MapSaver, makes_a_sound_map_file_of_exactly_these_blocks) {
@@ -46,11 +45,11 @@ TEST(MapSaver, makes_a_sound_map_file_of_exactly_these_blocks) {
     EXPECT_EQ(read->voxel_m(), 0.05);
     EXPECT_EQ(read->frames(), 77U);
     EXPECT_EQ(read->meta().at("source"), "sim:test");
-    EXPECT_EQ(read->block_count(), map.blocks.size());
-    for (const auto& [index, block] : map.blocks) {
+    EXPECT_EQ(read->block_count(), map.block_count());
+    for (const BlockIndex& index : map.sorted_blocks()) {
       const auto found = read->find(index);
       ASSERT_TRUE(found && *found) << random.repeat();
-      EXPECT_EQ(**found, block) << random.repeat();
+      EXPECT_EQ(**found, *map.find(index)) << random.repeat();
     }
     EXPECT_EQ(map_saver(meta)(map).value(), *bytes) << "the same map gives the same bytes";
   });

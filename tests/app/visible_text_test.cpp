@@ -13,7 +13,7 @@
 #include "app/support/run_program.hpp"
 #include "support/seeds.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/store/map_file/save_blocks.hpp"
+#include "swiftlet/store/map_file/save_map.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -56,13 +56,10 @@ TEST(VisibleText, is_the_same_in_one_piece_or_in_many) {
 
 TEST(VisibleText, a_map_full_of_odd_bytes_is_told_as_text_and_as_json) {
   const test::TempFolder folder;
-  VoxelBlock block;
-  block.clear();
-  ASSERT_TRUE(save_blocks(folder / "a.swl", std::vector{std::pair{BlockIndex{}, block}},
-                          {{"voxel_m", "0.1"},
-                           {"frames", "1"},
-                           {"source", "\x1b[31mred\xff\x9b"},
-                           {"k\x1b[2J\nforged", "v"}}));
+  BlockMap map({0.1, {}, 1});
+  map.set({}, kUnknownCell);
+  ASSERT_TRUE(save_map(folder / "a.swl", map,
+                       {{"source", "\x1b[31mred\xff\x9b"}, {"k\x1b[2J\nforged", "v"}}));
   const auto text = test::run({"info", "a.swl"}, folder / ".");
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, Not(HasSubstr("\x1b")));

@@ -28,7 +28,7 @@ int main() {
   const VoxelIndex wall = voxel_containing(p_world + Eigen::Vector3d::Constant(0.05), 0.1);
   map->writable(block_of(wall)).cells[offset_in_block(wall)] = kOccupiedCell;
 
-  const auto snapshot = map->snapshot(1);
+  const auto snapshot = map->snapshot({1});
   const bool is_seen = snapshot && snapshot->log_odds(wall) == kOccupiedCell &&
                        snapshot->log_odds({wall.x, wall.y, wall.z + 1}) == kUnknownCell;
   std::cout << "wall at " << p_world.transpose() << (is_seen ? " is on the map\n" : " was lost\n");

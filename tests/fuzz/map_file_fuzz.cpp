@@ -52,7 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     write(path.string() + (data[0] % 3 == 1 ? "-wal" : "-journal"), data + 5 + map_size,
           size - 5 - map_size);
   }
-  if (const auto map = load_map(path)) (void)summarize(*map, {});
+  if (const auto map = load_map(path)) (void)summarize(*map);
   (void)check_map(path);
   const auto report = salvage_map(path, out);
   if (!report) return 0;

@@ -10,7 +10,7 @@
 #include <iterator>
 #include <string>
 
-#include "swiftlet/store/map_file/save_blocks.hpp"
+#include "swiftlet/store/map_file/save_map.hpp"
 
 namespace {
 
@@ -33,17 +33,13 @@ void write_seed(const fs::path& path, char kind, const std::string& map, const s
 int main(int count, char** words) {
   if (count != 2) return 2;
   const fs::path out(words[1]), map = out / "map.swl";
-  std::vector<std::pair<BlockIndex, VoxelBlock>> blocks;
+  BlockMap blocks({0.1, {}, 7, Eigen::Vector3d(0, 1, 2)});
   for (int i = 0; i < 40; ++i) {
     VoxelBlock block;
     block.cells.fill(static_cast<QuantizedLogOdds>(100 + i));
-    blocks.push_back({{i, -i, i % 3}, block});
+    blocks.put({i, -i, i % 3}, block);
   }
-  const MapMeta meta{{"voxel_m", "0.1"},
-                     {"frames", "7"},
-                     {"start_m", "0 1 2"},
-                     {"config", "map:\n  voxel_m: 0.1\n"}};
-  if (!save_blocks(map, blocks, meta)) return 1;
+  if (!save_map(map, blocks, {{"config", "map:\n  voxel_m: 0.1\n"}})) return 1;
   write_seed(out / "plain", 0, content_of(map), {});
   {
     auto file = MapFile::open_to_write(map, 0);

@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "support/seeds.hpp"
+#include "swiftlet/map/memory_archive.hpp"
 
 namespace swiftlet {
 namespace {
@@ -19,22 +20,6 @@ namespace {
 using test::Random;
 using Model = std::unordered_map<VoxelIndex, QuantizedLogOdds, VoxelHash>;
 using Blocks = std::unordered_map<BlockIndex, VoxelBlock, BlockHash>;
-
-/// An archive in memory.
-class MemoryArchive final : public BlockArchive {
- public:
-  void evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t) override {
-    blocks[index] = block;
-  }
-  bool restore(const BlockIndex& index, VoxelBlock& out) override {
-    const auto found = blocks.find(index);
-    if (found != blocks.end()) out = found->second;
-    return found != blocks.end();
-  }
-  void expect_around(const BlockWindow&) override {}
-
-  Blocks blocks;
-};
 
 RollingMap small_map(const Eigen::Vector3d& size_m = {4.0, 3.0, 2.0}, double voxel_m = 0.1) {
   auto map =
@@ -118,7 +103,7 @@ void run_model_test(bool keeps) {
           expect_same(held.front(), random);
           held.pop_front();
         }
-        auto snapshot = map.snapshot(static_cast<std::uint64_t>(step));
+        auto snapshot = map.snapshot({static_cast<std::uint64_t>(step)});
         ASSERT_TRUE(snapshot);
         held.push_back({std::move(*snapshot), model.cells, map.window()});
       }
@@ -192,7 +177,7 @@ TEST(RollingMap, hands_each_block_that_leaves_to_the_archive_once_and_forgets_it
   set(map, {0, 0, 0}, 250);
   const auto shift = map.recentre({100.0, 0.0, 0.0}, &archive);
   EXPECT_EQ(shift.blocks_evicted, 1U);
-  EXPECT_EQ(archive.blocks.at({0, 0, 0}).cells[0], 250);
+  EXPECT_EQ(archive.blocks().find({0, 0, 0})->cells[0], 250);
   EXPECT_EQ(map.log_odds({0, 0, 0}), kUnknownCell);
 }
 
@@ -226,11 +211,11 @@ TEST(MapSnapshot, never_changes_while_the_writer_goes_on) {
   RollingMap map = small_map();
   map.recentre(Eigen::Vector3d::Zero(), nullptr);
   set(map, {1, 2, 3}, 10);
-  const auto snapshot = map.snapshot(1);
+  const auto snapshot = map.snapshot({1});
   ASSERT_TRUE(snapshot);
   set(map, {1, 2, 3}, 99);
   map.recentre({50, 0, 0}, nullptr);
-  map.publish(2);
+  map.publish({2});
   EXPECT_EQ(snapshot->log_odds({1, 2, 3}), 10);
   EXPECT_EQ(snapshot->frame_count(), 1U);
 }
@@ -240,13 +225,13 @@ TEST(MapSnapshot, is_not_published_while_readers_hold_every_slot_and_again_when_
   map.recentre(Eigen::Vector3d::Zero(), nullptr);
   std::vector<MapSnapshot> held;
   for (std::uint64_t i = 0; i < SnapshotStore::kSlots; ++i) {
-    auto snapshot = map.snapshot(i);
+    auto snapshot = map.snapshot({i});
     ASSERT_TRUE(snapshot);
     held.push_back(std::move(*snapshot));
   }
-  EXPECT_FALSE(map.snapshot(9));
+  EXPECT_FALSE(map.snapshot({9}));
   held.erase(held.begin());
-  EXPECT_TRUE(map.snapshot(10));
+  EXPECT_TRUE(map.snapshot({10}));
 }
 
 TEST(MapSnapshot, tells_blocks_that_changed_since_an_earlier_one) {
@@ -254,9 +239,9 @@ TEST(MapSnapshot, tells_blocks_that_changed_since_an_earlier_one) {
   map.recentre(Eigen::Vector3d::Zero(), nullptr);
   set(map, {0, 0, 0}, 1);
   set(map, {8, 0, 0}, 1);
-  const auto first = map.snapshot(1);
+  const auto first = map.snapshot({1});
   set(map, {8, 0, 0}, 2);
-  const auto second = map.snapshot(2);
+  const auto second = map.snapshot({2});
   EXPECT_EQ(first->version({0, 0, 0}), second->version({0, 0, 0}));
   EXPECT_LT(first->version({1, 0, 0}), second->version({1, 0, 0}));
   EXPECT_EQ(second->version({0, 1, 0}), 0U);
@@ -287,7 +272,7 @@ TEST(MapReader, sees_whole_frames_only_from_several_threads) {
     for_each_block(map.window(), [&](const BlockIndex& index) {
       map.writable(index).cells.fill(static_cast<QuantizedLogOdds>(frame % 256));
     });
-    map.publish(frame);
+    map.publish({frame});
   }
   stop = true;
   a.join();

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "swiftlet/pipeline/mapper.hpp"
-#include "swiftlet/query/occupancy_query.hpp"
+#include "swiftlet/query/cell_counts.hpp"
 
 namespace swiftlet {
 namespace {

@@ -11,6 +11,7 @@
 #include "support/allocations.hpp"
 #include "support/synthetic.hpp"
 #include "swiftlet/integrate/measurement_models.hpp"
+#include "swiftlet/query/cell_counts.hpp"
 #include "swiftlet/query/occupancy_query.hpp"
 
 namespace swiftlet {
@@ -85,7 +86,7 @@ TEST(Mapper, refuses_frames_it_cannot_use_and_leaves_the_map_alone) {
           .verdict,
       FrameVerdict::kPoseOutOfRange);
   EXPECT_EQ(mapper.frame_count(), 0U);
-  EXPECT_EQ(count_cells(*mapper.snapshot(), {}).free, 0U);
+  EXPECT_EQ(count_cells(*mapper.snapshot()).free, 0U);
 }
 
 // Warm-up: two tours of what is to come, over an empty map and over a full one, so that every

@@ -30,7 +30,7 @@ TEST(DistanceField, knows_a_wall_and_a_ball_within_the_diagonal_of_a_voxel) {
     }
   });
   DistanceField field = field_for(*map, {.max_distance_m = 1.5, .is_signed = true});
-  field.update(*map->snapshot(1));
+  field.update(*map->snapshot({1}));
   Random random;
   int compared = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -133,7 +133,7 @@ TEST(DistanceField, says_what_an_answer_is_worth) {
   DistanceField field = field_for(*map, {.max_distance_m = 1.0});
   constexpr auto kOccupied = Obstacles::kOccupied, kNotFree = Obstacles::kNotFree;
   EXPECT_EQ(field.distance({0, 0, 0}, kOccupied).status, DistanceStatus::kOutside) << "no map yet";
-  field.update(*map->snapshot(1));
+  field.update(*map->snapshot({1}));
   EXPECT_EQ(field.distance({5, 4, 4}, kOccupied).status, DistanceStatus::kKnown);
   EXPECT_EQ(field.distance({5, 4, 4}, kOccupied).distance_m, 2 * kRestlessCell_m);
   EXPECT_EQ(field.distance({-2, 4, 4}, kOccupied).status, DistanceStatus::kBeyondReach);

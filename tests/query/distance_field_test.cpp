@@ -129,8 +129,8 @@ TEST(DistanceField, does_not_take_one_map_for_another_whose_versions_are_alike) 
   };
   RollingMap first = map_with({1, 1, 1}), second = map_with({-3, 2, 0});
   DistanceField field = field_for(first, {});
-  field.update(*first.snapshot(1));
-  field.update(*second.snapshot(1));
+  field.update(*first.snapshot({1}));
+  field.update(*second.snapshot({1}));
   EXPECT_EQ(field.squared_voxels({-3, 2, 0}, Obstacles::kOccupied), 0);
   EXPECT_NE(field.squared_voxels({1, 1, 1}, Obstacles::kOccupied), 0);
 }

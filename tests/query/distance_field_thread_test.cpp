@@ -40,7 +40,7 @@ struct Flight {
                          w.first.z + random.integer(0, w.size.z - 1)};
       for (QuantizedLogOdds& cell : map->writable(b).cells) cell = random.chance(0.02) ? 220 : 20;
     }
-    map->publish(++frames);
+    map->publish({++frames});
   }
   /// Waits for the field of the newest frame.
   HeldDistanceField newest() {
@@ -53,7 +53,7 @@ struct Flight {
   }
   DistanceField from_scratch() {
     DistanceField field = *DistanceField::create(0.2, map->window().size, options);
-    field.update(*map->snapshot(frames));
+    field.update(*map->snapshot({frames}));
     return field;
   }
 

@@ -9,6 +9,7 @@
 
 #include "support/seeds.hpp"
 #include "swiftlet/map/rolling_map.hpp"
+#include "swiftlet/query/cell_counts.hpp"
 #include "swiftlet/query/occupancy_query.hpp"
 
 namespace swiftlet {
@@ -50,7 +51,7 @@ RayHit walk(const MapSnapshot& map, const Eigen::Vector3d& from, const Eigen::Ve
 TEST(CastRay, finds_what_a_walk_in_tiny_steps_finds) {
   Random random;
   RollingMap map = random_map(random);
-  const auto snapshot = map.snapshot(1);
+  const auto snapshot = map.snapshot({1});
   int compared = 0;
   for (int i = 0; i < 400; ++i) {
     const Eigen::Vector3d from = random.vector(-4.5, 4.5), to = random.vector(-4.5, 4.5);
@@ -73,7 +74,7 @@ TEST(CastRay, finds_what_a_walk_in_tiny_steps_finds) {
 TEST(CastRay, calls_space_outside_the_window_unknown) {
   Random random;
   RollingMap map = random_map(random);
-  const auto snapshot = map.snapshot(1);
+  const auto snapshot = map.snapshot({1});
   const RayHit outside = cast_ray(*snapshot, {100, 0, 0}, {0, 0, 0}, kThresholds);
   EXPECT_EQ(outside.state, Occupancy::kUnknown);
   EXPECT_EQ(outside.distance_m, 0.0);
@@ -84,7 +85,7 @@ TEST(CastRay, calls_space_outside_the_window_unknown) {
 TEST(CountCells, counts_every_cell_of_the_known_blocks_once) {
   Random random;
   RollingMap map = random_map(random);
-  const auto snapshot = map.snapshot(1);
+  const auto snapshot = map.snapshot({1});
   std::size_t blocks = 0, occupied = 0;
   snapshot->for_each_known_block([&](const BlockIndex&, const VoxelBlock& block) {
     ++blocks;

@@ -46,7 +46,7 @@ class RestlessMap {
               any_cell(0.4);
       }
     }
-    return *map_->snapshot(++frames_);
+    return *map_->snapshot({++frames_});
   }
 
  private:

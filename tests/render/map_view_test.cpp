@@ -11,19 +11,23 @@
 #include <ostream>
 
 #include "support/seeds.hpp"
+#include "swiftlet/render/coarser_map.hpp"
 
 namespace swiftlet::render {
 namespace {
 
-void set(LoadedMap& map, const VoxelIndex& v, QuantizedLogOdds value) {
-  const auto [block, is_new] = map.blocks.try_emplace(block_of(v));
-  if (is_new) block->second.clear();
-  block->second.cells[offset_in_block(v)] = value;
+void set(BlockMap& map, const VoxelIndex& v, QuantizedLogOdds value) { map.set(v, value); }
+
+/// The same blocks under another header.
+BlockMap with_header(const BlockMap& map, double voxel_m, const Eigen::Vector3d& start_m) {
+  BlockMap other = map;
+  other.set_header({voxel_m, map.scale(), 0, start_m});
+  return other;
 }
 
 /// A floor of 12 x 8 cells, free above, one pillar of three cells at (3, 2).
-LoadedMap pillar() {
-  LoadedMap map;
+BlockMap pillar() {
+  BlockMap map;
   for (std::int32_t x = -2; x < 10; ++x) {
     for (std::int32_t y = -4; y < 4; ++y) {
       set(map, {x, y, 0}, kOccupiedCell);
@@ -41,8 +45,8 @@ std::size_t pixels_of(const render::Picture& picture, render::Colour colour) {
 class EveryView : public ::testing::TestWithParam<Registered<DrawView>> {};
 
 TEST_P(EveryView, shows_a_change_of_the_map) {
-  const LoadedMap with = pillar();
-  LoadedMap without = with;
+  const BlockMap with = pillar();
+  BlockMap without = with;
   for (std::int32_t z = 1; z < 4; ++z) set(without, {3, 2, z}, kFreeCell);
   const ViewOptions options{0.3, 4};  // z = 0.3 m: layer 1
   const auto a = draw_view(GetParam().name, with, options);
@@ -52,13 +56,11 @@ TEST_P(EveryView, shows_a_change_of_the_map) {
 }
 
 TEST_P(EveryView, draws_the_same_map_the_same_way_whatever_the_order_of_its_blocks) {
-  const LoadedMap map = pillar();
-  LoadedMap reordered{map.voxel_m, map.thresholds};
-  reordered.blocks.rehash(1024);
-  std::vector<BlockIndex> order;
-  for (const auto& [index, block] : map.blocks) order.push_back(index);
-  std::ranges::sort(order, std::greater{});
-  for (const BlockIndex& index : order) reordered.blocks[index] = map.blocks.at(index);
+  const BlockMap map = pillar();
+  BlockMap reordered(map.header());
+  auto order = map.sorted_blocks();
+  std::ranges::reverse(order);
+  for (const BlockIndex& index : order) reordered.put(index, *map.find(index));
   const auto a = draw_view(GetParam().name, map, {});
   const auto b = draw_view(GetParam().name, reordered, {});
   ASSERT_TRUE(a && b);
@@ -66,15 +68,15 @@ TEST_P(EveryView, draws_the_same_map_the_same_way_whatever_the_order_of_its_bloc
 }
 
 TEST_P(EveryView, refuses_a_map_of_unknown_cells_and_a_picture_without_end) {
-  EXPECT_EQ(draw_view(GetParam().name, LoadedMap{}, {}).error().code, ErrorCode::kNotFound);
-  LoadedMap wide;
+  EXPECT_EQ(draw_view(GetParam().name, BlockMap{}, {}).error().code, ErrorCode::kNotFound);
+  BlockMap wide;
   set(wide, {-2'000'000'000, 0, 0}, kOccupiedCell);
   set(wide, {2'000'000'000, 0, 0}, kOccupiedCell);
   EXPECT_EQ(draw_view(GetParam().name, wide, {}).error().code, ErrorCode::kUsage);
 }
 
 TEST_P(EveryView, draws_two_blocks_a_kilometre_apart_small_and_soon) {
-  LoadedMap map;
+  BlockMap map;
   set(map, {0, 0, 0}, kOccupiedCell);
   set(map, {5000, 5000, 5000}, kOccupiedCell);
   const auto start = std::chrono::steady_clock::now();
@@ -88,9 +90,8 @@ TEST_P(EveryView, draws_two_blocks_a_kilometre_apart_small_and_soon) {
 
 TEST_P(EveryView, draws_cells_of_any_size_and_a_start_that_is_nowhere) {
   for (const double voxel_m : {1e300, 1e-300}) {
-    LoadedMap map = pillar();
-    map.voxel_m = voxel_m;
-    map.start_m = {1e300, std::numeric_limits<double>::quiet_NaN(), -1e300};
+    const BlockMap map =
+        with_header(pillar(), voxel_m, {1e300, std::numeric_limits<double>::quiet_NaN(), -1e300});
     EXPECT_TRUE(draw_view(GetParam().name, map, {})) << voxel_m;
     EXPECT_TRUE(draw_view(GetParam().name, map, {std::numeric_limits<double>::quiet_NaN(), 4}));
   }
@@ -113,8 +114,7 @@ TEST(SliceView, has_as_many_pixels_of_each_colour_as_the_layer_has_cells) {
 }
 
 TEST(SliceView, shows_the_layer_where_the_flight_began_unless_told_otherwise) {
-  LoadedMap map = pillar();
-  map.start_m = {0.1, 0.1, 0.7};  // layer 3
+  const BlockMap map = with_header(pillar(), 0.2, {0.1, 0.1, 0.7});  // layer 3
   const auto asked = draw_view("slice", map, {0.7, 8});
   const auto unasked = draw_view("slice", map, {std::nullopt, 8});
   const auto floor = draw_view("slice", map, {0.1, 8});
@@ -157,15 +157,15 @@ TEST(Polygon, two_that_share_an_edge_leave_no_gap_and_do_not_overlap) {
 }
 
 TEST(CoarserMap, keeps_matter_before_emptiness_on_both_sides_of_the_origin) {
-  LoadedMap map;
+  BlockMap map;
   set(map, {-1, -3, 2}, kOccupiedCell);
   for (std::int32_t x = -3; x < 3; ++x) set(map, {x, 0, 0}, kFreeCell);
-  const LoadedMap large = coarser(map, 3);
-  EXPECT_DOUBLE_EQ(large.voxel_m, 3 * map.voxel_m);
-  EXPECT_EQ(large.state({-1, -1, 0}), Occupancy::kOccupied);
-  EXPECT_EQ(large.state({-1, 0, 0}), Occupancy::kFree);
-  EXPECT_EQ(large.state({0, 0, 0}), Occupancy::kFree);
-  EXPECT_EQ(large.state({0, -1, 0}), Occupancy::kUnknown);
+  const BlockMap large = coarser_map(map, 3);
+  EXPECT_DOUBLE_EQ(large.voxel_m(), 3 * map.voxel_m());
+  EXPECT_EQ(large.occupancy(VoxelIndex{-1, -1, 0}), Occupancy::kOccupied);
+  EXPECT_EQ(large.occupancy(VoxelIndex{-1, 0, 0}), Occupancy::kFree);
+  EXPECT_EQ(large.occupancy(VoxelIndex{0, 0, 0}), Occupancy::kFree);
+  EXPECT_EQ(large.occupancy(VoxelIndex{0, -1, 0}), Occupancy::kUnknown);
 }
 
 TEST(HeightColour, runs_from_dark_to_bright) {

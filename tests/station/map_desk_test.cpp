@@ -22,7 +22,7 @@ constexpr std::size_t kBudget_bytes = 3500;
 class SlowDownloads : public ::testing::Test {
  protected:
   static MapWatch small_world() {
-    MapMirror map(small_facts().thresholds);
+    MapMirror map(small_facts().header);
     VoxelBlock block;
     block.clear();
     block.cells[0] = 200;
@@ -44,7 +44,7 @@ class SlowDownloads : public ::testing::Test {
   boost::asio::io_context io_;
   MapWatch watch_ = small_world();
   int made_ = 0;
-  MapSaver saver_ = [this](const MapCopy&) {
+  MapSaver saver_ = [this](const BlockMap&) {
     return std::vector<std::uint8_t>(kFile_bytes, static_cast<std::uint8_t>(++made_));
   };
   MapDesk::Time now_{};

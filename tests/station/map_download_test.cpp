@@ -21,10 +21,11 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 /// A map file of the simplest kind: after the frames, each block's index and cells.
-std::vector<std::uint8_t> plain_file(const MapCopy& map) {
+std::vector<std::uint8_t> plain_file(const BlockMap& map) {
   std::vector<std::uint8_t> bytes(8);
-  std::memcpy(bytes.data(), &map.frame_count, 8);
-  for (const auto& [index, block] : map.blocks) {
+  std::memcpy(bytes.data(), &map.header().frame_count, 8);
+  for (const BlockIndex& index : map.sorted_blocks()) {
+    const VoxelBlock& block = *map.find(index);
     const std::size_t at = bytes.size();
     bytes.resize(at + sizeof(index) + kBlockVoxels);
     std::memcpy(bytes.data() + at, &index, sizeof(index));
@@ -34,7 +35,7 @@ std::vector<std::uint8_t> plain_file(const MapCopy& map) {
 }
 
 MapDigest digest_of(std::string_view file) {
-  MapMirror map(small_facts().thresholds);
+  MapMirror map(small_facts().header);
   for (std::size_t at = 8; at < file.size(); at += sizeof(BlockIndex) + kBlockVoxels) {
     BlockIndex index;
     VoxelBlock block;
@@ -103,7 +104,7 @@ TEST_F(MapDownload, is_made_once_for_all_who_ask_meanwhile_and_holds_up_nobody_e
   std::atomic<int> files = 0;
   std::latch is_asked{1};
   std::latch may_go_on{1};
-  start([&](const MapCopy& map) -> Expected<std::vector<std::uint8_t>> {
+  start([&](const BlockMap& map) -> Expected<std::vector<std::uint8_t>> {
     if (++files == 1) {
       is_asked.count_down();
       may_go_on.wait();
@@ -138,7 +139,7 @@ TEST_F(MapDownload, leaves_room_for_others_and_says_when_to_come_back) {
   std::latch is_asked{1};
   std::latch may_go_on{1};
   start(
-      [&](const MapCopy& map) -> Expected<std::vector<std::uint8_t>> {
+      [&](const BlockMap& map) -> Expected<std::vector<std::uint8_t>> {
         is_asked.count_down();
         may_go_on.wait();
         return plain_file(map);
@@ -170,7 +171,7 @@ TEST_F(MapDownload, says_that_this_station_has_none_to_give) {
 
 TEST_F(MapDownload, says_why_it_could_not_be_made) {
   flight_.step();
-  start([](const MapCopy&) -> Expected<std::vector<std::uint8_t>> {
+  start([](const BlockMap&) -> Expected<std::vector<std::uint8_t>> {
     return fail(ErrorCode::kIo, "/tmp/map.swl", "the disk is full", "make room");
   });
   std::string said;
@@ -184,7 +185,7 @@ TEST_F(MapDownload, says_why_it_could_not_be_made) {
 TEST_F(MapDownload, does_not_keep_the_station_from_ending) {
   flight_.step();
   std::latch is_asked{1};
-  start([&](const MapCopy& map) -> Expected<std::vector<std::uint8_t>> {
+  start([&](const BlockMap& map) -> Expected<std::vector<std::uint8_t>> {
     is_asked.count_down();
     return plain_file(map);
   });

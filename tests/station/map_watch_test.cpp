@@ -35,7 +35,7 @@ TEST(MapWatch, names_every_block_that_changed) {
     const std::set<BlockIndex> changed(look.changed.begin(), look.changed.end());
     EXPECT_EQ(changed.size(), look.changed.size()) << "each once";
     std::unordered_map<BlockIndex, VoxelBlock, BlockHash> now;
-    watch.map().for_each_block([&](const BlockIndex& index, const VoxelBlock& block) {
+    watch.map().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
       now.emplace(index, block);
       const auto old = before.find(index);
       const bool is_same = old != before.end() && old->second == block;
@@ -121,7 +121,7 @@ TEST(MapMirror, forgets_far_blocks_and_never_those_of_the_window) {
   auto map = *RollingMap::create({0.1, {2.0, 2.0, 1.0}, {0.5, 0.5, 0.5}});
   map.recentre({200.0, 0.0, 0.0}, nullptr);  // block 250
   map.writable(block_of(voxel_containing({200.0, 0.0, 0.0}, 0.1))) = block;
-  mirror.update(*map.snapshot(1));
+  mirror.update(*map.snapshot({1}));
   EXPECT_LE(mirror.digest().blocks, kMost);
   EXPECT_NE(mirror.find({250, 0, 0}), nullptr);
   EXPECT_NE(mirror.find({256, 0, 0}), nullptr) << "near";

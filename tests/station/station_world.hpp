@@ -15,7 +15,7 @@ inline WorldFacts small_facts() {
   facts.source = "sim:test";
   facts.version = "1.2.3";
   facts.is_live = true;
-  facts.voxel_m = 0.1;
+  facts.header.voxel_m = 0.1;
   facts.trigger_m = {1.0, 1.0, 0.5};
   facts.min_range_m = 0.2;
   facts.max_range_m = 5.0;
@@ -49,7 +49,7 @@ class RandomFlight {
       map_.writable(block_of(v)).cells[offset_in_block(v)] =
           static_cast<QuantizedLogOdds>(random_.integer(0, 255));
     }
-    map_.publish(++frames_);
+    map_.publish({++frames_});
     report.number = static_cast<std::uint32_t>(frames_);
     report.T_world_camera =
         Transform<World, Camera>::trusted(Eigen::Quaterniond::Identity(), position_);
@@ -58,7 +58,7 @@ class RandomFlight {
 
   /// What a ground station should know by now.
   [[nodiscard]] MapDigest truth() const {
-    MapMirror all(small_facts().thresholds);
+    MapMirror all(small_facts().header);
     for (const auto& [index, block] : outside_) {
       if (!map_.window().contains(index)) all.put(index, block, 1);
     }

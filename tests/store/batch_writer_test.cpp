@@ -27,7 +27,7 @@ class BatchOrder : public ::testing::Test {
   }
   MapSnapshot snapshot_with(int value) {
     map_.writable(kBlock) = block_full_of(value);
-    return *map_.snapshot(++frame_);
+    return *map_.snapshot({++frame_});
   }
   std::size_t write(const MapSnapshot* window, const BlockBuffer* evicted) {
     auto report = writer_->write({window, evicted, nullptr});

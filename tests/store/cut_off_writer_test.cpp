@@ -102,7 +102,7 @@ TEST(CutOffWriter, leaves_what_every_reader_opens_wherever_it_is_killed) {
     // A map that is replaced or set aside takes what belongs to it along, or goes with it.
     ASSERT_TRUE(MapFile::rename(path, folder / "b.swl"));
     ASSERT_EQ(read_whole(folder / "b.swl"), 0) << "renamed, operation " << kills;
-    ASSERT_TRUE(save_map(folder / "b.swl", *test::small_map().snapshot(1), true));
+    ASSERT_TRUE(save_map(folder / "b.swl", *test::small_map().snapshot({1}), true));
     ASSERT_TRUE(test::blocks_in(folder / "b.swl").empty());
   }
   EXPECT_GT(with_journal, 0) << "the cases that once could not be opened";

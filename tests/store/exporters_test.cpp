@@ -47,7 +47,7 @@ struct ExportedMap {
   [[nodiscard]] std::filesystem::path write(const char* format) const {
     const auto map = load_map(folder / "a.swl");
     const auto out = folder / (std::string("a.") + format).c_str();
-    const auto done = export_map(format, *map, kThresholds, out);
+    const auto done = export_map(format, *map, out);
     EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().text());
     EXPECT_FALSE(std::filesystem::exists(out.string() + ".part"));
     return out;
@@ -115,13 +115,13 @@ TEST(Exporters, leave_nothing_behind_when_they_fail) {
   const auto saved = load_map(map.folder / "a.swl");
   for (const auto& exporter : exporters()) {
     if (exporter.make == nullptr) continue;
-    const auto failed = exporter.make(*saved, kThresholds, "/nowhere/at/all/a", {});
+    const auto failed = exporter.make(*saved, "/nowhere/at/all/a", {});
     ASSERT_FALSE(failed.has_value()) << exporter.name;
     EXPECT_EQ(failed.error().code, ErrorCode::kIo);
-    const auto full = exporter.make(*saved, kThresholds, "/proc/a", {});
+    const auto full = exporter.make(*saved, "/proc/a", {});
     EXPECT_FALSE(full.has_value()) << exporter.name;
   }
-  const auto unknown = export_map("dwg", *saved, kThresholds, map.folder / "a.dwg");
+  const auto unknown = export_map("dwg", *saved, map.folder / "a.dwg");
   ASSERT_FALSE(unknown.has_value());
   EXPECT_NE(unknown.error().remedy.find("ply"), std::string::npos);
 }
@@ -130,7 +130,7 @@ TEST(Exporters, report_progress_up_to_one) {
   const ExportedMap map;
   const auto saved = load_map(map.folder / "a.swl");
   double last = 0.0;
-  ASSERT_TRUE(export_map("ply", *saved, kThresholds, map.folder / "a.ply", [&](double fraction) {
+  ASSERT_TRUE(export_map("ply", *saved, map.folder / "a.ply", [&](double fraction) {
     EXPECT_GE(fraction, last);
     last = fraction;
   }));
@@ -170,11 +170,11 @@ TEST(Exporters, distinct_cells_keep_distinct_points_far_from_the_origin) {
   }
   std::ranges::sort(occupied);
   const auto map = load_map(folder / "far.swl");
-  ASSERT_TRUE(export_map("ply", *map, kThresholds, folder / "far.ply"));
+  ASSERT_TRUE(export_map("ply", *map, folder / "far.ply"));
   EXPECT_EQ(cells_of_binary<double>(folder / "far.ply", "end_header\n", 28, {0, 0, 0}), occupied);
 
-  ASSERT_TRUE(export_map("pcd", *map, kThresholds, folder / "far.pcd"));
-  const auto origin = pcd_origin(*map, kThresholds);
+  ASSERT_TRUE(export_map("pcd", *map, folder / "far.pcd"));
+  const auto origin = pcd_origin(*map);
   ASSERT_TRUE(origin);
   EXPECT_EQ(cells_of_binary<float>(folder / "far.pcd", "DATA binary\n", 16, *origin), occupied);
   EXPECT_EQ(lines_of(folder / "far.pcd")[1], "# add (" + std::to_string(std::llround(origin->x())) +
@@ -232,12 +232,12 @@ TEST(Exporters, refuse_cells_beyond_octomaps_key_space) {
     auto store = TileStore::create(folder / "a.swl", 0.05);
     (*store)->evict({4095, 0, 0}, test::block_full_of(255), 1);  // cells up to 32767: the last
   }
-  EXPECT_TRUE(export_map("bt", *load_map(folder / "a.swl"), kThresholds, folder / "a.bt"));
+  EXPECT_TRUE(export_map("bt", *load_map(folder / "a.swl"), folder / "a.bt"));
   {
     auto store = TileStore::create(folder / "b.swl", 0.05);
     (*store)->evict({4096, 0, 0}, test::block_full_of(255), 1);
   }
-  const auto beyond = export_map("bt", *load_map(folder / "b.swl"), kThresholds, folder / "b.bt");
+  const auto beyond = export_map("bt", *load_map(folder / "b.swl"), folder / "b.bt");
   ASSERT_FALSE(beyond.has_value());
   EXPECT_EQ(beyond.error().code, ErrorCode::kUnsupported);
   EXPECT_FALSE(std::filesystem::exists(folder / "b.bt"));

@@ -62,7 +62,7 @@ struct Flight {
     map.recentre({Flight::x_m(frame), 0, 0}, store->get());
     Flight::for_each_changed(
         frame, [&](const BlockIndex& index) { map.writable(index) = Flight::state(index, frame); });
-    map.publish(frame);
+    map.publish({frame});
     const TileStoreStats stats = (*store)->stats();
     if (stats.batches == batches) continue;
     batches = stats.batches;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "support/temp_folder.hpp"
+#include "swiftlet/query/known_voxels.hpp"
 
 namespace swiftlet {
 namespace {
@@ -33,16 +34,12 @@ TEST(OctomapBlocks, lays_out_leaves_of_every_size_that_fits) {
       const auto out = read_octomap_blocks(folder / "a.bt", kLaidOut);
       ASSERT_TRUE(out) << out.error().text();
       std::uint64_t cells = 0;
-      for (const auto& [index, block] : out->blocks) {
-        for (const QuantizedLogOdds cell : block.cells) {
-          const auto state = kLaidOut.classify(cell);
-          if (state == Occupancy::kUnknown) continue;
-          EXPECT_EQ(state == Occupancy::kOccupied, is_occupied);
-          ++cells;
-        }
-      }
+      for_each_known_voxel(out->blocks, [&](const VoxelIndex&, QuantizedLogOdds, Occupancy state) {
+        EXPECT_EQ(state == Occupancy::kOccupied, is_occupied);
+        ++cells;
+      });
       EXPECT_EQ(cells, std::uint64_t{1} << (3 * (16 - depth))) << depth;
-      EXPECT_EQ(out->blocks.count(block_of({-32768, -32768, -32768})), 1U);
+      EXPECT_NE(out->blocks.find(block_of({-32768, -32768, -32768})), nullptr);
     }
   }
 }

@@ -69,7 +69,7 @@ TEST(Salvage, leaves_out_a_damaged_block_and_names_it) {
   change_with_sql(folder / "a.swl",
                   "UPDATE blocks SET checksum = checksum + 1 WHERE x = " + std::to_string(bad.x) +
                       " AND y = " + std::to_string(bad.y) + " AND z = " + std::to_string(bad.z));
-  const auto refused = summarize(*load_map(folder / "a.swl"), {});
+  const auto refused = summarize(*load_map(folder / "a.swl"));
   ASSERT_FALSE(refused.has_value());
   EXPECT_NE(refused.error().remedy.find("--salvage"), std::string::npos);
   const auto found = load_salvaged(folder / "a.swl");
@@ -204,7 +204,7 @@ TEST(HostileMap, pages_that_lead_to_one_page_again_and_again_come_to_an_end) {
   test::write_bytes(folder / "b.swl", bytes);
   const auto map = load_map(folder / "b.swl");
   if (map) {
-    EXPECT_FALSE(summarize(*map, {}).has_value());
+    EXPECT_FALSE(summarize(*map).has_value());
   }
   EXPECT_FALSE(check_map(folder / "b.swl").empty());
   const auto found = load_salvaged(folder / "b.swl");
@@ -223,12 +223,12 @@ TEST(HostileMap, the_start_of_the_flight_must_be_a_place_in_the_world) {
     EXPECT_FALSE(check_map(folder / "a.swl").empty());
     const auto found = load_salvaged(folder / "a.swl");
     ASSERT_TRUE(found.has_value()) << found.error().text();
-    EXPECT_FALSE(found->first.start_m().has_value());
+    EXPECT_FALSE(found->first.header().start_m.has_value());
   }
   const TempFolder folder;
   Random random;
   write_salvage_map(folder / "a.swl", random, 3);
-  EXPECT_EQ(load_map(folder / "a.swl")->start_m(), (std::array{1.0, -2.0, 3.0}));
+  EXPECT_EQ(load_map(folder / "a.swl")->header().start_m, Eigen::Vector3d(1.0, -2.0, 3.0));
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ TEST(TileStore, loading_a_saved_map_gives_the_map) {
     RollingMap map = test::small_map();
     map.recentre(random.vector(-50, 50), nullptr);
     change_some(map, random, random.integer(0, 200));
-    const auto snapshot = map.snapshot(7);
+    const auto snapshot = map.snapshot({7});
     ASSERT_TRUE(save_map(folder / "a.swl", *snapshot, true, {{"config", "voxel: 1\n"}}));
     EXPECT_EQ(test::blocks_in(folder / "a.swl"), test::blocks_in(*snapshot)) << random.repeat();
     const auto loaded = load_map(folder / "a.swl");
@@ -68,7 +68,7 @@ TEST(TileStore, saving_twice_gives_the_same_bytes) {
   RollingMap map = test::small_map();
   map.recentre({0, 0, 0}, nullptr);
   change_some(map, random, 100);
-  const auto snapshot = map.snapshot(1);
+  const auto snapshot = map.snapshot({1});
   ASSERT_TRUE(save_map(folder / "a.swl", *snapshot));
   ASSERT_TRUE(save_map(folder / "b.swl", *snapshot));
   EXPECT_EQ(test::bytes_of(folder / "a.swl"), test::bytes_of(folder / "b.swl"));
@@ -149,12 +149,12 @@ TEST(TileStore, a_window_that_wanders_finds_everything_as_it_left_it) {
     });
     change_some(map, random, 10);
     map.for_each_known_block([&](const BlockIndex& i, const VoxelBlock& b) { world[i] = b; });
-    map.publish(frame);
+    map.publish({frame});
   }
   const TileStoreStats stats = store->stats();
   EXPECT_EQ(stats.restore_failed, 0U);
   EXPECT_EQ(stats.lost, 0U);
-  ASSERT_TRUE(store->close(map.snapshot(600)));
+  ASSERT_TRUE(store->close(map.snapshot({600})));
   EXPECT_EQ(test::blocks_in(folder / "a.swl"), Blocks(world.begin(), world.end()))
       << random.repeat();
 }
@@ -171,7 +171,7 @@ TEST(TileStore, a_corridor_there_and_back_restores_every_block_that_was_evicted)
     map.recentre({0.2 * step, 0, 0}, store.get());
     change_some(map, random, 20);
     map.for_each_known_block([&](const BlockIndex& i, const VoxelBlock& b) { there[i] = b; });
-    map.publish(++frame);
+    map.publish({++frame});
   }
   std::size_t compared = 0;
   for (int step = 300; step >= 0; --step) {
@@ -180,7 +180,7 @@ TEST(TileStore, a_corridor_there_and_back_restores_every_block_that_was_evicted)
       ++compared;
       ASSERT_EQ(block, there.at(index)) << random.repeat();
     });
-    map.publish(++frame);
+    map.publish({++frame});
   }
   EXPECT_GT(compared, there.size());
   // The window and its snapshots, with some words of book-keeping a block; the path has 10 times
@@ -210,11 +210,11 @@ TEST(TileStore, never_exceeds_the_cap_and_drops_the_oldest_first) {
       if (map.find(index) == nullptr) map.writable(index) = test::random_block(random);
     });
     map.for_each_known_block([&](const BlockIndex& i, const VoxelBlock& b) { world[i] = b; });
-    map.publish(++frame);
+    map.publish({++frame});
     wait_for_batch(*store);
   }
   EXPECT_GT(store->stats().dropped_by_cap, 0U);
-  ASSERT_TRUE(store->close(map.snapshot(frame)));
+  ASSERT_TRUE(store->close(map.snapshot({frame})));
   is_done = true;
   watcher.join();
   EXPECT_LE(largest, kCap);
@@ -249,10 +249,10 @@ TEST(TileStore, policy_drop_keeps_the_window_and_nothing_else) {
         map.recentre({step < 20 ? 0.4 * step : 0.4 * (40 - step), 0, 0}, store.get());
     EXPECT_EQ(shift.blocks_restored, 0U);
     change_some(map, random, 10);
-    map.publish(++frame);
+    map.publish({++frame});
     if (step % 10 == 5) wait_for_batch(*store);
   }
-  const auto last = map.snapshot(frame);
+  const auto last = map.snapshot({frame});
   ASSERT_TRUE(store->close(last));
   EXPECT_EQ(test::blocks_in(folder / "a.swl"), test::blocks_in(*last)) << random.repeat();
 }

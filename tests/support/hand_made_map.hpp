@@ -44,7 +44,7 @@ class HandMadeMap {
     for_each_block(map_.window(), [&](const BlockIndex& b) { map_.writable(b).cells.fill(value); });
   }
   [[nodiscard]] MapSnapshot snapshot() {
-    auto snapshot = map_.snapshot(++frames_);
+    auto snapshot = map_.snapshot({++frames_});
     EXPECT_TRUE(snapshot);
     return std::move(*snapshot);
   }

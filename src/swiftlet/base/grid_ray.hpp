@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "swiftlet/base/voxel_box.hpp"
 #include "swiftlet/base/voxel_index.hpp"
 
 namespace swiftlet {
@@ -20,22 +21,6 @@ namespace swiftlet {
 struct GridRay {
   Eigen::Vector3d from;
   Eigen::Vector3d to;
-};
-
-/// A box of cells: [first, last] along each axis, both inside.
-struct VoxelBox {
-  VoxelIndex first;
-  VoxelIndex last;
-
-  [[nodiscard]] constexpr bool contains(const VoxelIndex& v) const {
-    return v.x >= first.x && v.x <= last.x && v.y >= first.y && v.y <= last.y && v.z >= first.z &&
-           v.z <= last.z;
-  }
-  /// Grows until it contains the cell.
-  constexpr void include(const VoxelIndex& v) {
-    first = {std::min(first.x, v.x), std::min(first.y, v.y), std::min(first.z, v.z)};
-    last = {std::max(last.x, v.x), std::max(last.y, v.y), std::max(last.z, v.z)};
-  }
 };
 
 /// The part of a segment inside a box, as parameters 0 <= begin <= end <= 1; begin > end if it

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
-#include "swiftlet/base/grid_ray.hpp"
+#include "swiftlet/base/voxel_box.hpp"
 #include "swiftlet/base/voxel_index.hpp"
 
 namespace swiftlet {
@@ -27,6 +28,9 @@ struct BlockWindow {
   [[nodiscard]] constexpr BlockIndex end() const {
     return {first.x + size.x, first.y + size.y, first.z + size.z};
   }
+  [[nodiscard]] constexpr bool is_empty() const {
+    return size.x <= 0 || size.y <= 0 || size.z <= 0;
+  }
   [[nodiscard]] constexpr std::size_t block_count() const {
     return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
            static_cast<std::size_t>(size.z);
@@ -36,8 +40,33 @@ struct BlockWindow {
 
 /// All cells of a window.
 [[nodiscard]] constexpr VoxelBox voxel_box(const BlockWindow& window) {
-  const VoxelIndex behind = first_voxel(window.end());
-  return {first_voxel(window.first), {behind.x - 1, behind.y - 1, behind.z - 1}};
+  const auto last = [](std::int32_t first, std::int32_t size) {  // the end may lie behind int32
+    return static_cast<std::int32_t>((std::int64_t{first} + size) * kBlockEdge - 1);
+  };
+  const BlockIndex& b = window.first;
+  const BlockIndex& n = window.size;
+  return {first_voxel(b), {last(b.x, n.x), last(b.y, n.y), last(b.z, n.z)}};
+}
+
+/// The blocks that a box of cells touches. REQUIRES: first <= last along each axis.
+[[nodiscard]] constexpr BlockWindow blocks_around(const VoxelBox& box) {
+  const BlockIndex first = block_of(box.first), last = block_of(box.last);
+  return {first, {last.x - first.x + 1, last.y - first.y + 1, last.z - first.z + 1}};
+}
+
+/// The smallest window that holds both. Extents that do not fit an int32 are cut at its end.
+[[nodiscard]] constexpr BlockWindow joined(const BlockWindow& a, const BlockWindow& b) {
+  if (a.is_empty()) return b;
+  if (b.is_empty()) return a;
+  BlockWindow all;
+  for (const auto axis : {&BlockIndex::x, &BlockIndex::y, &BlockIndex::z}) {
+    const std::int64_t end = std::max(std::int64_t{a.first.*axis} + a.size.*axis,
+                                      std::int64_t{b.first.*axis} + b.size.*axis);
+    all.first.*axis = std::min(a.first.*axis, b.first.*axis);
+    all.size.*axis = static_cast<std::int32_t>(
+        std::min<std::int64_t>(end - all.first.*axis, std::numeric_limits<std::int32_t>::max()));
+  }
+  return all;
 }
 
 /// Calls visit(BlockIndex) for every block of a window, x fastest.

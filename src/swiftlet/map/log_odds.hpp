@@ -34,6 +34,8 @@ struct OccupancyThresholds {
     if (cell >= occupied_from) return Occupancy::kOccupied;
     return cell < free_below ? Occupancy::kFree : Occupancy::kUnknown;
   }
+  friend constexpr bool operator==(const OccupancyThresholds&,
+                                   const OccupancyThresholds&) = default;
 };
 
 }  // namespace swiftlet

@@ -9,32 +9,39 @@
 
 #include "swiftlet/base/voxel_index.hpp"
 #include "swiftlet/map/block_window.hpp"
+#include "swiftlet/map/occupancy_map.hpp"
 #include "swiftlet/map/snapshot_store.hpp"
 #include "swiftlet/map/voxel_block.hpp"
 
 namespace swiftlet {
 
-/// The map as it stood after one whole frame; never changes while it is held.
+/// The map as it stood after one whole frame; never changes while it is held. Answers
+/// `map.occupancy(p_world)`, `map.probability(voxel)` (VoxelLookup) and every query of query/.
 ///
 /// Frame: world. Thread safety: any thread, any number of readers. Cost: copying takes a reference;
 /// reading a cell is two array look-ups. A held snapshot keeps its blocks from being reused, so let
-/// go of it after planning: while all `max_snapshots` are held, the mapper goes on but publishes
-/// nothing newer.
-class MapSnapshot {
+/// go of it after planning: while all of them (SnapshotStore::kSlots) are held, the mapper goes on
+/// but publishes nothing newer.
+class MapSnapshot : public VoxelLookup<MapSnapshot> {
  public:
   [[nodiscard]] double voxel_m() const { return slot().voxel_m; }
   [[nodiscard]] const BlockWindow& window() const { return slot().window; }
+  [[nodiscard]] const BlockWindow& extent() const { return slot().window; }
+  [[nodiscard]] const LogOddsScale& scale() const { return slot().scale; }
+  [[nodiscard]] const OccupancyThresholds& thresholds() const { return slot().scale.thresholds; }
   /// Number of frames integrated so far.
-  [[nodiscard]] std::uint64_t frame_count() const { return slot().frame_count; }
+  [[nodiscard]] std::uint64_t frame_count() const { return slot().mark.frame_count; }
+  /// Of the newest frame, in its source's clock: how old the map is. Means nothing before the
+  /// first.
+  [[nodiscard]] Stamp stamp() const { return slot().mark.stamp; }
+  /// Where the newest frame was seen from. The identity before the first.
+  [[nodiscard]] const Transform<World, Camera>& T_world_camera() const {
+    return slot().mark.T_world_camera;
+  }
 
   /// The block, or null where the window holds nothing but unknown cells. kUnknownCell outside the
   /// window, too.
   [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const;
-
-  [[nodiscard]] QuantizedLogOdds log_odds(const VoxelIndex& voxel) const {
-    const VoxelBlock* block = find(block_of(voxel));
-    return block == nullptr ? kUnknownCell : block->cells[offset_in_block(voxel)];
-  }
 
   /// Tells whether a block has changed since an earlier look: the publication in which this version
   /// was born. 0 where there is no block.

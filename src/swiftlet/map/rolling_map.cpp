@@ -41,7 +41,7 @@ Eigen::Vector3d blocks_for(const RollingMap::Options& o) {
 
 }  // namespace
 
-Expected<RollingMap> RollingMap::create(const Options& options) {
+Expected<RollingMap> RollingMap::create(const Options& options, const LogOddsScale& scale) {
   if (auto valid = validate(options); !valid) return forward_error(std::move(valid));
   const Eigen::Vector3d n = blocks_for(options);
   if (n.prod() > kMaxBlocks) {
@@ -55,11 +55,13 @@ Expected<RollingMap> RollingMap::create(const Options& options) {
   const std::size_t window_blocks = BlockWindow{{}, size}.block_count();
   auto pool = BlockPool::create(window_blocks * (1 + SnapshotStore::kSlots));
   if (!pool) return forward_error(std::move(pool));
-  return RollingMap(options, std::move(*pool), size);
+  return RollingMap(options, scale, std::move(*pool), size);
 }
 
-RollingMap::RollingMap(const Options& options, BlockPool pool, const BlockIndex& window_size)
+RollingMap::RollingMap(const Options& options, const LogOddsScale& scale, BlockPool pool,
+                       const BlockIndex& window_size)
     : options_(options),
+      scale_(scale),
       store_(std::make_shared<SnapshotStore>(std::move(pool), window_size)),
       directory_(window_size) {}
 
@@ -148,14 +150,14 @@ VoxelBlock& RollingMap::writable(const BlockIndex& index) {
   return block;
 }
 
-bool RollingMap::publish(std::uint64_t frame_count) {
-  if (store_->has_readers()) return store_->publish(directory_, options_.voxel_m, frame_count);
+bool RollingMap::publish(const FrameMark& mark) {
+  if (store_->has_readers()) return store_->publish(directory_, options_.voxel_m, scale_, mark);
   store_->withdraw();
   return true;
 }
 
-std::optional<MapSnapshot> RollingMap::snapshot(std::uint64_t frame_count) {
-  if (!store_->publish(directory_, options_.voxel_m, frame_count)) return std::nullopt;
+std::optional<MapSnapshot> RollingMap::snapshot(const FrameMark& mark) {
+  if (!store_->publish(directory_, options_.voxel_m, scale_, mark)) return std::nullopt;
   return reader().latest();
 }
 

@@ -12,7 +12,9 @@
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/map/block_archive.hpp"
 #include "swiftlet/map/block_directory.hpp"
+#include "swiftlet/map/frame_mark.hpp"
 #include "swiftlet/map/map_snapshot.hpp"
+#include "swiftlet/map/occupancy_map.hpp"
 #include "swiftlet/map/snapshot_store.hpp"
 
 namespace swiftlet {
@@ -31,7 +33,7 @@ namespace swiftlet {
 ///   3. a block that readers may see never changes (SnapshotStore)
 /// Cost: look-up and update O(1), recentre O(slab that leaves and enters), snapshot O(blocks in the
 /// window) in words. Never allocates after construction.
-class RollingMap {
+class RollingMap : public VoxelLookup<RollingMap> {
  public:
   /// The vehicle stays within this distance of the origin along each axis, so that indices fit.
   static constexpr double kMaxCoordinate_m = 1e6;
@@ -49,12 +51,16 @@ class RollingMap {
     std::size_t blocks_restored = 0;
   };
 
+  /// `scale`: how its readers are to understand the cells; the map itself only stores them.
   /// Errors: kInvalidConfig if an option is not positive and finite, or the window has no room for
   /// a cell or more than 2^24 blocks (8 GiB); kOutOfMemory if the blocks cannot be reserved.
-  [[nodiscard]] static Expected<RollingMap> create(const Options& options);
+  [[nodiscard]] static Expected<RollingMap> create(const Options& options,
+                                                   const LogOddsScale& scale = {});
 
   [[nodiscard]] double voxel_m() const { return options_.voxel_m; }
+  [[nodiscard]] const LogOddsScale& scale() const { return scale_; }
   [[nodiscard]] const BlockWindow& window() const { return directory_.window(); }
+  [[nodiscard]] const BlockWindow& extent() const { return window(); }
 
   /// Keeps the vehicle, or a place ahead of it, in the middle: when it has left the trigger box
   /// around the place of the last move (or on the first call), moves the window so that it is
@@ -65,11 +71,6 @@ class RollingMap {
   /// Forgets every cell, as if nothing had ever been mapped; the next recentre() is a first one.
   /// Snapshots that readers hold keep what they show. Cost: O(blocks of the window).
   void clear();
-
-  [[nodiscard]] QuantizedLogOdds log_odds(const VoxelIndex& voxel) const {
-    const VoxelBlock* block = find(block_of(voxel));
-    return block == nullptr ? kUnknownCell : block->cells[offset_in_block(voxel)];
-  }
 
   /// The block, or null if the window holds nothing but unknown cells there (or it lies outside).
   [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const;
@@ -89,18 +90,21 @@ class RollingMap {
   /// A reader for another thread.
   [[nodiscard]] MapReader reader() const { return MapReader(store_); }
   /// Hands the present state to the readers, if there are any; false if they hold every slot.
-  bool publish(std::uint64_t frame_count);
+  /// `mark`: the newest frame in it.
+  bool publish(const FrameMark& mark);
   /// The present state, for the writer's own use; nullopt if readers hold every slot.
-  [[nodiscard]] std::optional<MapSnapshot> snapshot(std::uint64_t frame_count);
+  [[nodiscard]] std::optional<MapSnapshot> snapshot(const FrameMark& mark);
 
   /// Memory that the map occupies by now: blocks ever used, directories, book-keeping [bytes].
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  RollingMap(const Options& options, BlockPool pool, const BlockIndex& window_size);
+  RollingMap(const Options& options, const LogOddsScale& scale, BlockPool pool,
+             const BlockIndex& window_size);
   [[nodiscard]] BlockIndex first_block_around(const Eigen::Vector3d& p_world) const;
 
   Options options_;
+  LogOddsScale scale_;
   std::shared_ptr<SnapshotStore> store_;
   BlockDirectory directory_;
   std::optional<Eigen::Vector3d> anchor_;  // where the vehicle was at the last move [m, world]

@@ -59,15 +59,16 @@ void SnapshotStore::reclaim() {
 }
 
 bool SnapshotStore::publish(const BlockDirectory& directory, double voxel_m,
-                            std::uint64_t frame_count) {
+                            const LogOddsScale& scale, const FrameMark& mark) {
   const int latest = latest_.load();
   for (int i = 0; i < kSlots; ++i) {
     std::int32_t nobody = 0;
     if (i == latest || !holders_[i].compare_exchange_strong(nobody, kBusy)) continue;
     SnapshotSlot& slot = slots_[i];
     slot.voxel_m = voxel_m;
+    slot.scale = scale;
     slot.window = directory.window();
-    slot.frame_count = frame_count;
+    slot.mark = mark;
     slot.epoch = epoch_++;
     slot.directory = directory;  // same size: copies without allocating
     holders_[i].fetch_sub(kBusy);

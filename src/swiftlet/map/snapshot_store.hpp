@@ -11,14 +11,17 @@
 
 #include "swiftlet/map/block_directory.hpp"
 #include "swiftlet/map/block_pool.hpp"
+#include "swiftlet/map/frame_mark.hpp"
+#include "swiftlet/map/log_odds_scale.hpp"
 
 namespace swiftlet {
 
 /// One published state of the map: a copy of the directory; the blocks themselves are shared.
 struct SnapshotSlot {
   double voxel_m = 0.0;
+  LogOddsScale scale{};
   BlockWindow window{};
-  std::uint64_t frame_count = 0;
+  FrameMark mark{};
   std::uint64_t epoch = 0;  // 0 = never published
   BlockDirectory directory;
 };
@@ -47,7 +50,8 @@ class SnapshotStore {
   /// The map no longer uses this block; it goes back to the pool as soon as no snapshot shows it.
   void drop(BlockId id);
   /// Publishes the present state and opens the next epoch; false if every slot is held.
-  bool publish(const BlockDirectory& directory, double voxel_m, std::uint64_t frame_count);
+  bool publish(const BlockDirectory& directory, double voxel_m, const LogOddsScale& scale,
+               const FrameMark& mark);
   /// Lets go of the newest snapshot (readers that hold it keep it), so that nobody pins its blocks.
   void withdraw();
   [[nodiscard]] bool has_readers() const { return readers_.load(std::memory_order_relaxed) > 0; }

@@ -18,7 +18,7 @@ Expected<Mapper> Mapper::create(const MapperConfig& config, BlockArchive* archiv
                 "an archive would bring the blocks of the old world back into the cleared map",
                 "choose 'refuse', and call begin_world() when the archive is a new one, too");
   }
-  auto map = RollingMap::create(config.map);
+  auto map = RollingMap::create(config.map, config.scale());
   if (!map) return forward_error(std::move(map));
   auto conditioner = Conditioner::create(config.conditioning());
   if (!conditioner) return forward_error(std::move(conditioner));
@@ -52,9 +52,9 @@ void Mapper::begin_world(std::uint32_t pose_epoch) {
   map_.clear();
   *gate_ = FrameGate(config_.quality);
   if (decay_) *decay_ = OccupancyDecay(config_.integrate.decay_s);
-  frame_count_ = 0;  // rounding draws from it
+  mark_ = {};  // rounding draws from the number of frames
   pose_epoch_ = pose_epoch;
-  map_.publish(frame_count_);
+  map_.publish(mark_);
 }
 
 bool Mapper::is_of_other_world(const Frame& frame) const {
@@ -114,7 +114,7 @@ MapUpdate Mapper::integrate(const Frame& frame) {
   timer.finish(Stage::kRecentre);
   fuse(frame, instrument, depth, update);
   timer.finish(Stage::kIntegrate);
-  update.was_published = map_.publish(frame_count_);
+  update.was_published = map_.publish(mark_);
   timer.finish(Stage::kPublish);
   return update;
 }
@@ -124,14 +124,14 @@ void Mapper::fuse(const Frame& frame, const SensorOptions& instrument,
   SensorOptions left = instrument;
   left.subpixel_px *= double{depth.noise_left};
   const StereoSensor sensor(frame.intrinsics, left, map_.voxel_m(), depth.ratio);
-  const DepthView view{depth, pyramid_, frame.intrinsics, frame.T_world_camera, frame_count_};
+  const DepthView view{depth, pyramid_, frame.intrinsics, frame.T_world_camera, mark_.frame_count};
   update.tally = integrator_->integrate(view, sensor, *model_, map_);
   if (decay_) {
     const double sigma_per_z2 = sensor.noise().sigma_m(1.0);
     update.decayed = decay_->apply(
         view, {frame.stamp, frame.camera, sigma_per_z2, config_.depth.max_range_m}, map_);
   }
-  ++frame_count_;
+  mark_ = {mark_.frame_count + 1, frame.stamp, frame.T_world_camera};
 }
 
 }  // namespace swiftlet

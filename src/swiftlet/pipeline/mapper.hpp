@@ -60,11 +60,12 @@ class Mapper {
   [[nodiscard]] RollingMap& map() { return map_; }
   /// For another thread: follows the map while it grows.
   [[nodiscard]] MapReader reader() const { return map_.reader(); }
-  /// For the mapping thread: the map as it is now; nullopt if readers hold every slot.
-  [[nodiscard]] std::optional<MapSnapshot> snapshot() { return map_.snapshot(frame_count_); }
+  /// For the mapping thread: the map as it is now, with its stamp, pose and thresholds; nullopt if
+  /// readers hold every slot.
+  [[nodiscard]] std::optional<MapSnapshot> snapshot() { return map_.snapshot(mark_); }
 
   /// Frames integrated so far.
-  [[nodiscard]] std::uint64_t frame_count() const { return frame_count_; }
+  [[nodiscard]] std::uint64_t frame_count() const { return mark_.frame_count; }
   /// The window and the scratch of what integrates [bytes].
   [[nodiscard]] std::size_t memory_bytes() const {
     return map_.memory_bytes() + pyramid_.memory_bytes() + model_->memory_bytes() +
@@ -96,7 +97,7 @@ class Mapper {
   std::unique_ptr<OccupancyDecay> decay_;  // null: never
   /// Null: the window stays around the vehicle.
   std::unique_ptr<Lookahead> lookahead_;
-  std::uint64_t frame_count_ = 0;
+  FrameMark mark_;  // the newest frame in the map
 };
 
 }  // namespace swiftlet

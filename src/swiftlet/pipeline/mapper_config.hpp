@@ -11,6 +11,7 @@
 #include "swiftlet/condition/frame_quality.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/map/log_odds.hpp"
+#include "swiftlet/map/log_odds_scale.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/pipeline/config_fields.hpp"
 #include "swiftlet/pipeline/lookahead.hpp"
@@ -41,6 +42,9 @@ struct MapperConfig {
   SensorOptions sensor;
   IntegrateOptions integrate;
   OccupancyThresholds occupancy;
+
+  /// How the cells of its map are read.
+  [[nodiscard]] LogOddsScale scale() const { return {occupancy, integrate.logodds_per_step}; }
 
   /// The options of the depth steps, with the one that the measurement model wants behind the range
   /// gate.

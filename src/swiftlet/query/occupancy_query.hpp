@@ -4,29 +4,21 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 
-#include "swiftlet/map/log_odds.hpp"
-#include "swiftlet/map/map_snapshot.hpp"
+#include "swiftlet/map/occupancy_map.hpp"
 
 namespace swiftlet {
 
-/// Is this point [m, world] free, occupied or unknown? Unknown outside the window. Cost: two array
-/// look-ups.
-[[nodiscard]] inline Occupancy occupancy_at(const MapSnapshot& map, const Eigen::Vector3d& p_world,
-                                            const OccupancyThresholds& thresholds) {
-  return thresholds.classify(map.log_odds(voxel_containing(p_world, map.voxel_m())));
+/// Is this point [m, world] free, occupied or unknown? Unknown outside the map. With thresholds of
+/// the caller's, or those of the map. Cost: one look-up.
+template <OccupancyMap Map>
+[[nodiscard]] Occupancy occupancy_at(const Map& map, const Eigen::Vector3d& p_world,
+                                     const OccupancyThresholds& thresholds) {
+  return thresholds.classify(map.log_odds(p_world));
 }
-
-/// Cells by state, of the blocks that the map holds; everything else is unknown.
-struct CellCounts {
-  std::size_t free = 0;
-  std::size_t unknown = 0;
-  std::size_t occupied = 0;
-
-  void add(const VoxelBlock& block, const OccupancyThresholds& thresholds);
-};
-
-[[nodiscard]] CellCounts count_cells(const MapSnapshot& map, const OccupancyThresholds& thresholds);
+template <OccupancyMap Map>
+[[nodiscard]] Occupancy occupancy_at(const Map& map, const Eigen::Vector3d& p_world) {
+  return map.occupancy(p_world);
+}
 
 }  // namespace swiftlet

@@ -8,7 +8,7 @@
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/map/map_snapshot.hpp"
-#include "swiftlet/query/occupancy_query.hpp"
+#include "swiftlet/query/cell_counts.hpp"
 #include "swiftlet/query/sweep/body_shape.hpp"
 
 namespace swiftlet {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "swiftlet/query/known_voxels.hpp"
+
 namespace swiftlet::render {
 namespace {
 
@@ -30,12 +32,12 @@ int whole_px(double px) { return static_cast<int>(std::lround(std::clamp(px, -1e
 
 }  // namespace
 
-FloorPlan::FloorPlan(const LoadedMap& map, const VoxelBox& box, int cell_px)
+FloorPlan::FloorPlan(const BlockMap& map, const VoxelBox& box, int cell_px)
     : box_(box),
-      voxel_m_(map.voxel_m),
-      start_m_(map.start_m),
+      voxel_m_(map.voxel_m()),
+      start_m_(map.header().start_m),
       cell_px_(cell_px),
-      tick_m_(metres_between_ticks(cell_px / map.voxel_m)),
+      tick_m_(metres_between_ticks(cell_px / map.voxel_m())),
       picture_((box.last.y - box.first.y + 1) * cell_px + 2 * kMargin_px,
                (box.last.x - box.first.x + 1) * cell_px + 2 * kMargin_px, kPaper) {}
 
@@ -83,9 +85,9 @@ void FloorPlan::draw_scale_bar() {
 }
 
 void FloorPlan::draw_start() {
-  if (!start_m_.allFinite()) return;
-  const int u = column_px(start_m_.y());
-  const int v = row_px(start_m_.x());
+  if (!start_m_ || !start_m_->allFinite()) return;
+  const int u = column_px(start_m_->y());
+  const int v = row_px(start_m_->x());
   fill_rectangle(picture_, u - 6, v - 1, u + 7, v + 2, kStartInk);
   fill_rectangle(picture_, u - 1, v - 6, u + 2, v + 7, kStartInk);
 }
@@ -97,8 +99,8 @@ Picture FloorPlan::finish() && {
   return std::move(picture_);
 }
 
-Columns::Columns(const LoadedMap& map, const VoxelBox& box) {
-  map.for_each_known_cell([&](const VoxelIndex& v, Occupancy state) {
+Columns::Columns(const BlockMap& map, const VoxelBox& box) {
+  for_each_known_voxel(map, [&](const VoxelIndex& v, LogOdds, Occupancy state) {
     if (v.z < box.first.z || v.z > box.last.z) return;
     Column& column = by_block_[block_of({v.x, v.y, 0})][offset_in_block({v.x, v.y, 0})];
     column.free += state == Occupancy::kFree ? 1 : 0;
@@ -119,9 +121,9 @@ std::int32_t layer_at(double m, double voxel_m) {
                            : static_cast<std::int32_t>(std::clamp(layer, -kFarthest, kFarthest));
 }
 
-std::optional<std::int32_t> lowest_matter(const LoadedMap& map, const VoxelBox& box) {
+std::optional<std::int32_t> lowest_matter(const BlockMap& map, const VoxelBox& box) {
   std::optional<std::int32_t> lowest;
-  map.for_each_known_cell([&](const VoxelIndex& v, Occupancy state) {
+  for_each_known_voxel(map, [&](const VoxelIndex& v, LogOdds, Occupancy state) {
     if (state == Occupancy::kOccupied && box.contains(v))
       lowest = std::min(lowest.value_or(v.z), v.z);
   });

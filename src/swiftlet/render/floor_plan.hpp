@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 
 #include "swiftlet/render/map_view.hpp"
@@ -15,10 +16,10 @@ namespace swiftlet::render {
 /// A picture of the world from above, one square per column of cells: x forward is up, y left is
 /// left. Around it a margin with a tick every metre (longer every five; in large maps every 2, 5,
 /// 10 .. metres) and in the lower left corner a bar from one tick to the next; a cross marks where
-/// the flight began.
+/// the flight began, if the map tells it.
 class FloorPlan {
  public:
-  FloorPlan(const LoadedMap& map, const VoxelBox& box, int cell_px);
+  FloorPlan(const BlockMap& map, const VoxelBox& box, int cell_px);
 
   /// Colours the square of column (x, y). REQUIRES: the column lies in the box.
   void fill_column(std::int32_t x, std::int32_t y, Colour colour);
@@ -35,7 +36,7 @@ class FloorPlan {
 
   VoxelBox box_;
   double voxel_m_;
-  Eigen::Vector3d start_m_;
+  std::optional<Eigen::Vector3d> start_m_;
   int cell_px_;
   double tick_m_;  // between two ticks
   Picture picture_;
@@ -51,7 +52,7 @@ struct Column {
 /// The columns of a box, counted in one pass over the blocks: most of a large box may be empty.
 class Columns {
  public:
-  Columns(const LoadedMap& map, const VoxelBox& box);
+  Columns(const BlockMap& map, const VoxelBox& box);
   [[nodiscard]] Column at(std::int32_t x, std::int32_t y) const;
 
  private:
@@ -63,7 +64,7 @@ class Columns {
 [[nodiscard]] std::int32_t layer_at(double m, double voxel_m);
 
 /// z of the lowest occupied cell in a box: the foot of the scale of heights.
-[[nodiscard]] std::optional<std::int32_t> lowest_matter(const LoadedMap& map, const VoxelBox& box);
+[[nodiscard]] std::optional<std::int32_t> lowest_matter(const BlockMap& map, const VoxelBox& box);
 
 /// The box without what lies above options.z_m.
 [[nodiscard]] VoxelBox cut_box(const VoxelBox& box, double voxel_m, const ViewOptions& options);

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "swiftlet/query/map_summary.hpp"
+#include "swiftlet/render/coarser_map.hpp"
 #include "swiftlet/render/map_view.hpp"
 
 // A view is one file, which ends in draw_<name>(), and one line here.
@@ -19,7 +21,7 @@
 namespace swiftlet::render {
 
 #define SWIFTLET_DECLARE(name, summary) \
-  Picture draw_##name(const LoadedMap& map, const VoxelBox& box, const ViewOptions& options);
+  Picture draw_##name(const BlockMap& map, const VoxelBox& box, const ViewOptions& options);
 SWIFTLET_MAP_VIEWS(SWIFTLET_DECLARE)
 #undef SWIFTLET_DECLARE
 
@@ -87,25 +89,26 @@ Error no_picture(const VoxelBox& box, double voxel_m) {
 
 }  // namespace
 
-int joined_cells(const LoadedMap& map, const ViewOptions& options) {
-  const auto box = known_box(map);
+int joined_cells(const BlockMap& map, const ViewOptions& options) {
+  const auto box = summarize(map).bounds;
   return box ? joined_cells_of(*box, options) : 1;
 }
 
-Expected<Picture> draw_view(std::string_view view, const LoadedMap& map,
+Expected<Picture> draw_view(std::string_view view, const BlockMap& map,
                             const ViewOptions& options) {
   auto known = find_registered(map_views(), view, "view");
   if (!known) return forward_error(std::move(known));
-  const auto box = known_box(map);
+  const auto box = summarize(map).bounds;
   if (!box) {
     return fail(ErrorCode::kNotFound, {}, "the map holds no free or occupied cell to draw",
                 "look at it with 'swiftlet info'");
   }
   const int joined = joined_cells_of(*box, options);
-  if (joined == 0) return tl::make_unexpected(no_picture(*box, map.voxel_m));
+  if (joined == 0) return tl::make_unexpected(no_picture(*box, map.voxel_m()));
   if (joined > 1) {
-    const LoadedMap small = coarser(map, joined);
-    return draw_view(view, small, {options.z_m, fitting_cell_px(known_box(small).value_or(*box))});
+    const BlockMap small = coarser_map(map, joined);
+    return draw_view(view, small,
+                     {options.z_m, fitting_cell_px(summarize(small).bounds.value_or(*box))});
   }
   ViewOptions fitted = options;
   if (fitted.cell_px == 0) fitted.cell_px = fitting_cell_px(*box);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "swiftlet/query/known_voxels.hpp"
 #include "swiftlet/render/floor_plan.hpp"
 
 namespace swiftlet::render {
@@ -71,7 +72,7 @@ Eigen::Vector3i axis_along(const Face& face) {
 
 class IsoDrawing {
  public:
-  IsoDrawing(const LoadedMap& map, const VoxelBox& box, int cell_px)
+  IsoDrawing(const BlockMap& map, const VoxelBox& box, int cell_px)
       : map_(map),
         box_(box),
         camera_(box, cell_px * kSupersampling),
@@ -94,7 +95,7 @@ class IsoDrawing {
 
  private:
   [[nodiscard]] bool is_drawn(const VoxelIndex& v) const {
-    return v.z <= box_.last.z && map_.state(v) == Occupancy::kOccupied;
+    return v.z <= box_.last.z && map_.occupancy(v) == Occupancy::kOccupied;
   }
 
   /// Ambient occlusion: matter around the cell in front of a face takes light from it. 0.6 .. 1.
@@ -120,7 +121,7 @@ class IsoDrawing {
     fill_polygon(picture_, corners, colour);
   }
 
-  const LoadedMap& map_;
+  const BlockMap& map_;
   VoxelBox box_;
   IsoCamera camera_;
   Picture picture_;
@@ -130,10 +131,10 @@ class IsoDrawing {
 
 /// Painter's algorithm: cells from the farthest to the nearest, which for cubes of one size is the
 /// order of x + y - z, falling; only faces that no other cell covers are drawn.
-Picture draw_iso(const LoadedMap& map, const VoxelBox& whole, const ViewOptions& options) {
-  VoxelBox box = cut_box(whole, map.voxel_m, options);
+Picture draw_iso(const BlockMap& map, const VoxelBox& whole, const ViewOptions& options) {
+  VoxelBox box = cut_box(whole, map.voxel_m(), options);
   std::vector<VoxelIndex> cells;
-  map.for_each_known_cell([&](const VoxelIndex& v, Occupancy state) {
+  for_each_known_voxel(map, [&](const VoxelIndex& v, LogOdds, Occupancy state) {
     if (state == Occupancy::kOccupied && v.z <= box.last.z) cells.push_back(v);
   });
   std::ranges::sort(cells, [](const VoxelIndex& a, const VoxelIndex& b) {

@@ -15,15 +15,15 @@ constexpr double kFullHeight_m = 1.5;  // a column with this much matter is draw
 }  // namespace
 
 /// Walls stand out dark against tables and chairs, since they fill more cells of their columns.
-Picture draw_top(const LoadedMap& map, const VoxelBox& whole, const ViewOptions& options) {
-  const VoxelBox box = cut_box(whole, map.voxel_m, options);
+Picture draw_top(const BlockMap& map, const VoxelBox& whole, const ViewOptions& options) {
+  const VoxelBox box = cut_box(whole, map.voxel_m(), options);
   FloorPlan plan(map, box, options.cell_px);
   const Columns columns(map, box);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
     const Column column = columns.at(x, y);
     Colour colour = column.free > 0 ? kFree : kUnseen;
     if (column.occupied > 0) {
-      const double matter = std::min(1.0, column.occupied * map.voxel_m / kFullHeight_m);
+      const double matter = std::min(1.0, column.occupied * map.voxel_m() / kFullHeight_m);
       colour = shaded({120, 150, 190}, 1.0 - 0.85 * matter);
     }
     plan.fill_column(x, y, colour);

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "swiftlet/session/flight_file.hpp"
+#include "swiftlet/store/map_file/header_lines.hpp"
 #include "swiftlet/store/map_file/map_file.hpp"
 #include "swiftlet/store/map_file/saved_map.hpp"
 
@@ -51,7 +52,7 @@ void MappingSession::keep_failure(Error failure) {
 Expected<std::unique_ptr<TileStore>> MappingSession::new_store(const std::filesystem::path& path,
                                                                bool overwrite) {
   MapMeta meta = options_.meta;
-  meta["start_m"] = fmt::format("{} {} {}", start_m_->x(), start_m_->y(), start_m_->z());
+  put_header({mapper_->map().voxel_m(), mapper_->map().scale(), 0, start_m_}, meta);
   meta[std::string(kFlightKey)] = kUnderWay;
   if (!aside_.empty() && paths_.empty()) meta[std::string(kReplacesKey)] = aside_.filename();
   TileStoreOptions options = options_.store;
@@ -182,16 +183,12 @@ Status MappingSession::save() {
 Expected<SavedFile> MappingSession::read_back(const std::filesystem::path& path) const {
   auto map = load_map(path);
   if (!map) return forward_error(std::move(map));
-  auto counted = summarize(*map, mapper_->config().occupancy);
+  auto counted = summarize(*map);
   if (!counted) return forward_error(std::move(counted));
   std::error_code unreadable;  // then the size stays 0: it is only shown
   const auto bytes = std::filesystem::file_size(path, unreadable);
-  return SavedFile{path.string(),
-                   unreadable ? 0 : bytes,
-                   map->block_count(),
-                   map->frames(),
-                   {counted->count(Occupancy::kFree), counted->count(Occupancy::kUnknown),
-                    counted->count(Occupancy::kOccupied)}};
+  return SavedFile{path.string(), unreadable ? 0 : bytes, map->block_count(), map->frames(),
+                   counted->cells};
 }
 
 }  // namespace swiftlet

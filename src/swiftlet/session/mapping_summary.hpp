@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "swiftlet/pipeline/mapper.hpp"
-#include "swiftlet/query/occupancy_query.hpp"
+#include "swiftlet/query/cell_counts.hpp"
 #include "swiftlet/session/latency.hpp"
 #include "swiftlet/source/frame_source.hpp"
 

@@ -13,7 +13,7 @@ namespace {
 
 BlockIndex middle_of(const MapMirror& map) {
   std::int64_t x = 0, y = 0, z = 0, count = 0;
-  map.for_each_block([&](const BlockIndex& b, const VoxelBlock&) {
+  map.for_each_known_block([&](const BlockIndex& b, const VoxelBlock&) {
     x += b.x;
     y += b.y;
     z += b.z;
@@ -37,7 +37,7 @@ MapWatch::Look MapWatch::look() {
     world_ = begun->number;
     facts_ = std::move(begun->facts);
     reader_ = std::move(begun->reader);
-    map_ = MapMirror(facts_.thresholds);
+    map_ = MapMirror(facts_.header);
     last_frame_.reset();
     verdicts_.assign(facts_.verdicts.size(), 0);
   }
@@ -64,7 +64,7 @@ void MapWatch::book(const FrameReport& frame, Look& look) {
   if (frame.has_shifted) trigger_centre_m_ = frame.window_goal.value_or(p_world);
   // Frames that were refused may be beyond.
   if (p_world.cwiseAbs().maxCoeff() < RollingMap::kMaxCoordinate_m) {
-    centre_ = block_of(voxel_containing(p_world, facts_.voxel_m));
+    centre_ = block_of(voxel_containing(p_world, map_.voxel_m()));
   }
 }
 

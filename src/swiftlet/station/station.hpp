@@ -15,8 +15,8 @@
 #include "swiftlet/station/http/door.hpp"
 #include "swiftlet/station/http/listen_address.hpp"
 #include "swiftlet/station/state/live_feed.hpp"
-#include "swiftlet/station/state/map_copy.hpp"
 #include "swiftlet/station/state/map_mirror.hpp"
+#include "swiftlet/station/state/map_saver.hpp"
 
 namespace swiftlet::station {
 

@@ -3,15 +3,12 @@
 
 #include "swiftlet/store/opened_map.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <utility>
-#include <vector>
 
 #include "swiftlet/file/file_kind.hpp"
 #include "swiftlet/store/export/octomap_blocks.hpp"
-#include "swiftlet/store/map_file/save_blocks.hpp"
+#include "swiftlet/store/map_file/save_map.hpp"
 
 namespace swiftlet {
 namespace {
@@ -22,13 +19,8 @@ Expected<OpenedMap> lay_out_octomap(const std::string& path) {
   auto folder = PrivateFolder::create();
   if (!folder) return forward_error(std::move(folder));
   const auto copy = folder->path() / "map.swl";
-  const std::vector<std::pair<BlockIndex, VoxelBlock>> blocks(laid_out->blocks.begin(),
-                                                              laid_out->blocks.end());
-  const MapMeta meta{{"voxel_m", fmt::format("{}", laid_out->summary.voxel_m)},
-                     {"frames", "0"},
-                     {"source", "OctoMap " + path},
-                     {"logodds_per_step", fmt::format("{}", OctomapBlocks::kLogoddsPerStep)}};
-  if (auto saved = save_blocks(copy, blocks, meta); !saved) return forward_error(std::move(saved));
+  if (auto saved = save_map(copy, laid_out->blocks, {{"source", "OctoMap " + path}}); !saved)
+    return forward_error(std::move(saved));
   auto map = load_map(copy);
   if (!map) return forward_error(std::move(map));
   return OpenedMap{std::move(*folder), std::move(*map)};

@@ -13,6 +13,7 @@
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/eval/score/cube_claims.hpp"
 #include "swiftlet/file/file_kind.hpp"
+#include "swiftlet/query/known_voxels.hpp"
 #include "swiftlet/store/export/octomap_import.hpp"
 
 namespace swiftlet::app {
@@ -41,8 +42,9 @@ Expected<eval::CubeClaims> read_claims(const std::string& path, bool is_salvaged
   if (facts->kind == FileKind::kOctomap) return read_octomap_claims(path);
   auto map = read_and_tell(path, is_salvaged);
   if (!map) return forward_error(std::move(map));
-  eval::CubeClaims claims(map->voxel_m);
-  map->for_each_known_cell([&](const VoxelIndex& v, Occupancy state) { claims.add(v, 1, state); });
+  eval::CubeClaims claims(map->voxel_m());
+  for_each_known_voxel(
+      *map, [&](const VoxelIndex& v, LogOdds, Occupancy state) { claims.add(v, 1, state); });
   return claims;
 }
 

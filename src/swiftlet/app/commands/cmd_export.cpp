@@ -29,13 +29,11 @@ Faults write_export(const ExportOptions& options) {
   }
   auto map = open_and_tell(options.map, options.is_salvaged);
   if (!map) return fault_of(std::move(map));
-  auto thresholds = thresholds_of(map->file);
-  if (!thresholds) return fault_of(std::move(thresholds));
-  auto written = export_map(options.format, map->file, *thresholds, options.out);
+  auto written = export_map(options.format, map->file, options.out);
   if (!written) return fault_of(std::move(written));
   fmt::print("{}\n", options.out);
   if (options.format != "pcd") return {};
-  const auto origin = pcd_origin(map->file, *thresholds);
+  const auto origin = pcd_origin(map->file);
   if (origin && !origin->isZero()) {
     fmt::print("far from the origin: add ({}, {}, {}) m to its points, as its header says\n",
                origin->x(), origin->y(), origin->z());

@@ -50,9 +50,8 @@ std::uintmax_t bytes_of(const SavedMap& map) {
 void print_text(const SavedMap& map, const MapSummary& summary, const std::string& note) {
   fmt::print("{} ({})\n", visible(map.path().string()), size_text(bytes_of(map)));
   fmt::print("  frames     {}\n", map.frames());
-  fmt::print("  cells      {} occupied, {} free, {} unknown in {} blocks\n",
-             summary.count(Occupancy::kOccupied), summary.count(Occupancy::kFree),
-             summary.count(Occupancy::kUnknown), map.block_count());
+  fmt::print("  cells      {} occupied, {} free, {} unknown in {} blocks\n", summary.cells.occupied,
+             summary.cells.free, summary.cells.unknown, map.block_count());
   fmt::print("  cell size  {} m\n", map.voxel_m());
   if (const auto b = bounds_of(map, summary)) {
     fmt::print("  bounds     x {:.2f} .. {:.2f}, y {:.2f} .. {:.2f}, z {:.2f} .. {:.2f} m\n",
@@ -83,9 +82,9 @@ void print_json(const OpenedMap& opened, const MapSummary& summary, const std::s
       {"voxel_m", map.voxel_m()},
       {"blocks", map.block_count()},
       {"cells",
-       {{"occupied", summary.count(Occupancy::kOccupied)},
-        {"free", summary.count(Occupancy::kFree)},
-        {"unknown", summary.count(Occupancy::kUnknown)}}},
+       {{"occupied", summary.cells.occupied},
+        {"free", summary.cells.free},
+        {"unknown", summary.cells.unknown}}},
       {"meta", map.meta()},
   };
   if (const auto b = bounds_of(map, summary)) {
@@ -124,9 +123,7 @@ Faults info(const InfoOptions& options) {
     return {wrong_kind(options.map, *facts, "a map (.swl, .bt or .ot) or a ROS bag")};
   auto map = open_and_tell(options.map, options.is_salvaged);
   if (!map) return fault_of(std::move(map));
-  auto thresholds = thresholds_of(map->file);
-  if (!thresholds) return fault_of(std::move(thresholds));
-  auto summary = summarize(map->file, *thresholds);
+  auto summary = summarize(map->file);
   if (!summary) return fault_of(std::move(summary));
   const std::string note = cut_off_note(options.map, map->file.meta());
   options.as_json ? print_json(*map, *summary, note) : print_text(map->file, *summary, note);

@@ -9,7 +9,6 @@
 #include "swiftlet/app/commands/map_flags.hpp"
 #include "swiftlet/app/view/map_saver.hpp"
 #include "swiftlet/app/view/station_flags.hpp"
-#include "swiftlet/base/number_text.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -22,18 +21,10 @@ struct MapViewFlags {
 
 /// The whole map, and what its file tells of it.
 Expected<station::SavedWorld> read_world(const SavedMap& file) {
-  auto thresholds = thresholds_of(file);
-  if (!thresholds) return forward_error(std::move(thresholds));
   station::SavedWorld world;
   world.facts.version = SWIFTLET_VERSION;
-  world.facts.voxel_m = file.voxel_m();
-  world.facts.thresholds = *thresholds;
-  const auto step = file.meta().find("logodds_per_step");
-  if (step != file.meta().end()) {
-    world.facts.logodds_per_step =
-        number_from<double>(step->second).value_or(world.facts.logodds_per_step);
-  }
-  world.map = station::MapMirror(*thresholds);
+  world.facts.header = file.header();
+  world.map = station::MapMirror(file.header());
   auto passed =
       file.for_each_block([&](const BlockIndex& index, const VoxelBlock& block) -> Status {
         world.map.put(index, block, 1);

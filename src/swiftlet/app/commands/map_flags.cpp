@@ -22,7 +22,7 @@ Expected<OpenedMap> open_and_tell(const std::string& path, bool is_salvaged) {
   return opened;
 }
 
-Expected<LoadedMap> read_and_tell(const std::string& path, bool is_salvaged) {
+Expected<BlockMap> read_and_tell(const std::string& path, bool is_salvaged) {
   auto opened = open_and_tell(path, is_salvaged);
   if (!opened) return forward_error(std::move(opened));
   return read_whole_map(opened->file);

@@ -6,7 +6,7 @@
 #include <CLI/App.hpp>
 #include <string>
 
-#include "swiftlet/store/map_reader.hpp"
+#include "swiftlet/store/map_loader.hpp"
 #include "swiftlet/store/opened_map.hpp"
 
 namespace swiftlet::app {
@@ -19,6 +19,6 @@ void declare_salvage(CLI::App& parser, bool& is_salvaged);
 
 /// Reads a whole map as read_whole_map() does; standard error tells what is missing of a salvaged
 /// one.
-[[nodiscard]] Expected<LoadedMap> read_and_tell(const std::string& path, bool is_salvaged);
+[[nodiscard]] Expected<BlockMap> read_and_tell(const std::string& path, bool is_salvaged);
 
 }  // namespace swiftlet::app

@@ -18,7 +18,7 @@
 #include "swiftlet/file/yaml_document_private.hpp"
 #include "swiftlet/source/rig/rig_file.hpp"
 #include "swiftlet/store/export/octomap_import.hpp"
-#include "swiftlet/store/map_reader.hpp"
+#include "swiftlet/store/map_file/saved_map.hpp"
 #if SWIFTLET_HAS_EMBREE
 #include "swiftlet/sim/scene_file.hpp"
 #endif
@@ -29,14 +29,6 @@ namespace {
 template <class T>
 Faults fault_if_any(Expected<T>&& result) {
   return result ? Faults{} : fault_of(std::move(result));
-}
-
-Faults faults_in_map(const std::string& path) {
-  Faults faults = check_map(path);
-  if (!faults.empty()) return faults;
-  // Good as a file; what the readers of maps would say, `check` says too.
-  auto map = load_map(path);
-  return map ? fault_if_any(thresholds_of(*map)) : fault_of(std::move(map));
 }
 
 Faults faults_in_bag(const std::string& path) {
@@ -105,7 +97,7 @@ Faults faults_in_file(const std::string& path) {
   if (!facts) return fault_of(std::move(facts));
   switch (facts->kind) {
     case FileKind::kMap:
-      return faults_in_map(path);
+      return check_map(path);
     case FileKind::kOctomap:
       return fault_if_any(read_octomap(path));
     case FileKind::kBag:

@@ -27,9 +27,8 @@ void FlightWatch::map_begun(const Mapper& mapper) {
   facts.source = source_;
   facts.version = SWIFTLET_VERSION;
   facts.is_live = true;
-  facts.voxel_m = config.map.voxel_m;
-  facts.thresholds = config.occupancy;
-  facts.logodds_per_step = config.integrate.logodds_per_step;
+  facts.header.voxel_m = config.map.voxel_m;
+  facts.header.scale = config.scale();
   facts.trigger_m = config.map.trigger_m;
   facts.min_range_m = config.depth.min_range_m;
   facts.max_range_m = config.depth.max_range_m;

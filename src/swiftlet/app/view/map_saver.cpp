@@ -3,14 +3,12 @@
 
 #include "swiftlet/app/view/map_saver.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <fstream>
-#include <string>
+#include <utility>
 
 #include "swiftlet/file/private_folder.hpp"
-#include "swiftlet/store/map_file/save_blocks.hpp"
+#include "swiftlet/store/map_file/save_map.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -28,20 +26,13 @@ Expected<std::vector<std::uint8_t>> read_bytes(const std::filesystem::path& path
 }  // namespace
 
 station::MapSaver map_saver(MapMeta meta) {
-  return
-      [meta = std::move(meta)](const station::MapCopy& map) -> Expected<std::vector<std::uint8_t>> {
-        const auto folder = PrivateFolder::create();
-        if (!folder) return tl::make_unexpected(folder.error());
-        MapMeta told = meta;
-        told["voxel_m"] = fmt::format("{}", map.voxel_m);
-        if (map.frame_count > 0 || !told.contains("frames")) {
-          told["frames"] = std::to_string(map.frame_count);
-        }
-        const auto path = folder->path() / "map.swl";
-        if (auto saved = save_blocks(path, map.blocks, told); !saved)
-          return forward_error(std::move(saved));
-        return read_bytes(path);
-      };
+  return [meta = std::move(meta)](const BlockMap& map) -> Expected<std::vector<std::uint8_t>> {
+    const auto folder = PrivateFolder::create();
+    if (!folder) return tl::make_unexpected(folder.error());
+    const auto path = folder->path() / "map.swl";
+    if (auto saved = save_map(path, map, meta); !saved) return forward_error(std::move(saved));
+    return read_bytes(path);
+  };
 }
 
 }  // namespace swiftlet::app

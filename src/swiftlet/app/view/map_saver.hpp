@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "swiftlet/station/state/map_copy.hpp"
+#include "swiftlet/station/state/map_saver.hpp"
 #include "swiftlet/store/map_file/map_file.hpp"
 
 namespace swiftlet::app {

@@ -7,10 +7,41 @@
 
 #include "swiftlet/eval/bench/bench_contender.hpp"
 #include "swiftlet/eval/bench/bench_points.hpp"
-#include "swiftlet/eval/truth/memory_archive.hpp"
+#include "swiftlet/map/memory_archive.hpp"
+#include "swiftlet/query/box_query.hpp"
 
 namespace swiftlet::eval {
 namespace {
+
+/// The window, and around it what has left it.
+class WholeFlight : public VoxelLookup<WholeFlight> {
+ public:
+  WholeFlight(const RollingMap& window, const MemoryArchive* left) : window_(window), left_(left) {}
+
+  [[nodiscard]] double voxel_m() const { return window_.voxel_m(); }
+  [[nodiscard]] const LogOddsScale& scale() const { return window_.scale(); }
+  [[nodiscard]] BlockWindow extent() const {
+    BlockWindow all = window_.extent();
+    if (left_ != nullptr) all = joined(all, left_->blocks().extent());
+    return all;
+  }
+  [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const {
+    if (left_ == nullptr || window_.window().contains(index)) return window_.find(index);
+    return left_->blocks().find(index);
+  }
+  template <class Visit>
+  void for_each_known_block(Visit&& visit) const {
+    window_.for_each_known_block(visit);
+    if (left_ == nullptr) return;
+    left_->blocks().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
+      if (!window_.window().contains(index)) visit(index, block);
+    });
+  }
+
+ private:
+  const RollingMap& window_;
+  const MemoryArchive* left_;
+};
 
 class MapperContender final : public Contender {
  public:
@@ -25,28 +56,10 @@ class MapperContender final : public Contender {
   [[nodiscard]] std::size_t map_bytes() const override { return mapper_.map().memory_bytes(); }
 
   void read_claims(Claims& claims) const override {
-    const OccupancyThresholds& thresholds = mapper_.config().occupancy;
-    const BlockIndex first = block_of(claims.box().first), last = block_of(claims.box().last);
-    const BlockWindow blocks{first,
-                             {last.x - first.x + 1, last.y - first.y + 1, last.z - first.z + 1}};
-    for_each_block(blocks, [&](const BlockIndex& index) {
-      const VoxelBlock* block = find(index);
-      for (int i = 0; i < kBlockVoxels; ++i) {
-        const VoxelIndex v = voxel_at(index, i);
-        if (!claims.contains(v)) continue;
-        claims.at(v) = block == nullptr
-                           ? Occupancy::kUnknown
-                           : thresholds.classify(block->cells[static_cast<std::size_t>(i)]);
-      }
-    });
+    copy_box(WholeFlight(mapper_.map(), archive_.get()), claims.box(), claims.cells());
   }
 
  private:
-  [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const {
-    if (mapper_.map().window().contains(index)) return mapper_.map().find(index);
-    return archive_ == nullptr ? nullptr : archive_->find(index);
-  }
-
   std::unique_ptr<MemoryArchive> archive_;  // before the mapper, which calls it
   Mapper mapper_;
 };

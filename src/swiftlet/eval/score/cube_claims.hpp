@@ -8,7 +8,7 @@
 #include <unordered_map>
 
 #include "swiftlet/base/voxel_index.hpp"
-#include "swiftlet/query/occupancy_query.hpp"
+#include "swiftlet/map/log_odds.hpp"
 
 namespace swiftlet::eval {
 

@@ -14,11 +14,11 @@ Bytes occupied_cells(const MapWatch& watch) {
   Bytes points;
   points.reserve(std::size_t{kStride} * watch.map().digest().occupied);
   ByteWriter point(points);
-  const double voxel_m = watch.facts().voxel_m;
-  watch.map().for_each_block([&](const BlockIndex& index, const VoxelBlock& block) {
+  const double voxel_m = watch.map().voxel_m();
+  watch.map().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
     for (int i = 0; i < kBlockVoxels; ++i) {
       const QuantizedLogOdds cell = block.cells[static_cast<std::size_t>(i)];
-      if (watch.facts().thresholds.classify(cell) != Occupancy::kOccupied) continue;
+      if (watch.map().scale().classify(cell) != Occupancy::kOccupied) continue;
       for (const double v : centre_of(voxel_at(index, i), voxel_m)) point.f32(v);
       point.u8(cell);
     }
@@ -50,7 +50,7 @@ Bytes window_grid(const MapWatch& watch) {
   cells.reserve(std::size_t{kCellBytes} * kX * kY * kZ);
   const auto write_cell = [&](QuantizedLogOdds cell) {
     cells.push_back(cell);
-    switch (watch.facts().thresholds.classify(cell)) {
+    switch (watch.map().scale().classify(cell)) {
       case Occupancy::kOccupied:
         cells.insert(cells.end(), {47, 111, 219, 255});
         break;
@@ -74,7 +74,7 @@ Bytes window_grid(const MapWatch& watch) {
       }
     }
   }
-  const double voxel_m = watch.facts().voxel_m;
+  const double voxel_m = watch.map().voxel_m();
   Bytes message;
   CdrWriter out(message);
   write_time(out, watch);

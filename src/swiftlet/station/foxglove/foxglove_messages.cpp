@@ -34,7 +34,7 @@ Bytes vehicle(const MapWatch& watch) {
   write_vector(out, {0.3, 0.08, 0.3});
   write_color(out, {1.0, 0.48, 0.27, 1.0});
   const VoxelBox box = voxel_box(watch.map().window());
-  const double voxel_m = watch.facts().voxel_m;
+  const double voxel_m = watch.map().voxel_m();
   const Eigen::Vector3d low = Eigen::Vector3d(box.first.x, box.first.y, box.first.z) * voxel_m;
   const Eigen::Vector3d high =
       Eigen::Vector3d(box.last.x + 1, box.last.y + 1, box.last.z + 1) * voxel_m;

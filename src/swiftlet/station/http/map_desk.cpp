@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <boost/asio/post.hpp>
-#include <tuple>
 #include <utility>
 
 #include "swiftlet/station/http/map_desk_private.hpp"
@@ -13,18 +12,6 @@ namespace swiftlet::station {
 namespace {
 
 constexpr std::chrono::seconds kFresh{1};
-
-MapCopy copy_of(const MapWatch& watch) {
-  std::vector<BlockIndex> order;
-  order.reserve(watch.map().digest().blocks);
-  watch.map().for_each_block(
-      [&](const BlockIndex& index, const VoxelBlock&) { order.push_back(index); });
-  std::ranges::sort(order, {}, [](const BlockIndex& b) { return std::tuple(b.z, b.y, b.x); });
-  MapCopy copy{watch.facts().voxel_m, watch.map().frame_count(), {}};
-  copy.blocks.reserve(order.size());
-  for (const BlockIndex& index : order) copy.blocks.emplace_back(index, *watch.map().find(index));
-  return copy;
-}
 
 }  // namespace
 
@@ -53,7 +40,7 @@ void MapDesk::ask(Time now, Ready ready) {
   waiting_.push_back(std::move(ready));
   if (waiting_.size() > 1) return;
   last_at_ = now;
-  boost::asio::post(worker_, [this, copy = std::make_shared<const MapCopy>(copy_of(watch_))] {
+  boost::asio::post(worker_, [this, copy = std::make_shared<const BlockMap>(watch_.map().copy())] {
     run_with_low_priority();
     auto file = std::make_shared<Expected<std::vector<std::uint8_t>>>(saver_(*copy));
     boost::asio::post(io_, [this, file] { made(std::move(*file)); });

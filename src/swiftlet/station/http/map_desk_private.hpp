@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "swiftlet/station/map_watch.hpp"
-#include "swiftlet/station/state/map_copy.hpp"
+#include "swiftlet/station/state/map_saver.hpp"
 
 namespace swiftlet::station {
 

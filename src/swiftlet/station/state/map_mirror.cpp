@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "swiftlet/query/occupancy_query.hpp"
+#include "swiftlet/query/cell_counts.hpp"
 
 namespace swiftlet::station {
 namespace {
@@ -36,70 +36,77 @@ bool holds_only_unknown(const VoxelBlock& block) {
 
 MapDigest MapMirror::share_of(const BlockIndex& index, const VoxelBlock& block) const {
   CellCounts cells;
-  cells.add(block, thresholds_);
+  cells.add(block, scale().thresholds);
   return {1, static_cast<std::uint32_t>(cells.occupied), static_cast<std::uint32_t>(cells.free),
           block_hash(index, block, 0), block_hash(index, block, 1)};
 }
 
 void MapMirror::put(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) {
-  const auto found = blocks_.find(index);
-  if (found != blocks_.end() && found->second.version > version) return;
+  const auto found = entries_.find(index);
+  if (found != entries_.end() && found->second.version > version) return;
   if (holds_only_unknown(block)) {
     remove(index);
     return;
   }
-  Entry& entry = found != blocks_.end() ? found->second : blocks_[index];
+  const bool is_new = found == entries_.end();
+  Entry& entry = is_new ? entries_[index] : found->second;
   entry.version = version;
-  if (entry.share.blocks == 1 && entry.block == block) return;
+  VoxelBlock& kept = map_.writable(index);
+  if (!is_new && kept == block) return;
   subtract(digest_, entry.share);
-  entry.block = block;
+  kept = block;
   entry.share = share_of(index, block);
   add(digest_, entry.share);
   if (!std::exchange(entry.is_changed, true)) changes_.push_back(index);
 }
 
 void MapMirror::remove(const BlockIndex& index) {
-  const auto found = blocks_.find(index);
-  if (found == blocks_.end()) return;
+  const auto found = entries_.find(index);
+  if (found == entries_.end()) return;
   subtract(digest_, found->second.share);
   if (!found->second.is_changed) changes_.push_back(index);
-  blocks_.erase(found);
+  entries_.erase(found);
+  map_.erase(index);
 }
 
 void MapMirror::update(const MapSnapshot& snapshot) {
   window_ = snapshot.window();
   frame_count_ = snapshot.frame_count();
-  swiftlet::for_each_block(window_, [&](const BlockIndex& index) {
+  for_each_block(window_, [&](const BlockIndex& index) {
     const std::uint64_t version = snapshot.version(index);
     if (version == 0) {
       remove(index);
       return;
     }
-    const auto known = blocks_.find(index);
-    if (known != blocks_.end() && known->second.version == version) return;
+    const auto known = entries_.find(index);
+    if (known != entries_.end() && known->second.version == version) return;
     put(index, *snapshot.find(index), version);
   });
-  if (blocks_.size() > max_blocks_) forget_far_blocks();
+  if (entries_.size() > max_blocks_) forget_far_blocks();
 }
 
 void MapMirror::clear() {
-  for (const auto& [index, entry] : blocks_) {
+  for (const auto& [index, entry] : entries_) {
     if (!entry.is_changed) changes_.push_back(index);
   }
-  blocks_.clear();
+  entries_.clear();
+  map_.clear();
   digest_ = {};
   window_ = {};
   frame_count_ = 0;
 }
 
-const VoxelBlock* MapMirror::find(const BlockIndex& index) const {
-  const auto found = blocks_.find(index);
-  return found == blocks_.end() ? nullptr : &found->second.block;
+BlockMap MapMirror::copy() const {
+  BlockMap copy = map_;
+  MapHeader header = map_.header();
+  header.frame_count = frame_count_;
+  copy.set_header(header);
+  return copy;
 }
 
 std::vector<BlockIndex> MapMirror::take_changes() {
   for (const BlockIndex& index : changes_) {
-    if (const auto found = blocks_.find(index); found != blocks_.end())
+    if (const auto found = entries_.find(index); found != entries_.end())
       found->second.is_changed = false;
   }
   // A block that went and came back within one look is listed twice.
@@ -119,14 +126,13 @@ void MapMirror::forget_far_blocks() {
                      beyond(b.z, window_.first.z, end.z)});
   };
   std::vector<std::pair<std::int64_t, BlockIndex>> far;
-  for (const auto& [index, entry] : blocks_) {
+  for (const auto& [index, entry] : entries_) {
     if (const auto d = distance(index); d > 0) far.emplace_back(-d, index);
   }
-  const std::size_t surplus = blocks_.size() - max_blocks_ + max_blocks_ / 10;
+  const std::size_t surplus = entries_.size() - max_blocks_ + max_blocks_ / 10;
   const std::size_t count = std::min(surplus, far.size());
   std::ranges::nth_element(far, far.begin() + static_cast<std::ptrdiff_t>(count));
   for (std::size_t i = 0; i < count; ++i) remove(far[i].second);
-  forgotten_ += count;
 }
 
 }  // namespace swiftlet::station

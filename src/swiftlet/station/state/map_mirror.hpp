@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "swiftlet/map/block_map.hpp"
 #include "swiftlet/map/map_snapshot.hpp"
 #include "swiftlet/station/state/block_hash.hpp"
 
@@ -16,12 +17,12 @@ namespace swiftlet::station {
 /// The station's own copy of the map, which its clients are brought into line with: inside the
 /// window what the newest snapshot shows, outside of it what each block was when it left.
 ///
-/// Thread safety: the station's thread alone. Memory: about 600 bytes a block, at most
+/// Thread safety: the station's thread alone. Memory: about 650 bytes a block, at most
 /// `max_blocks`; beyond that the blocks farthest from the window are forgotten.
-class MapMirror {
+class MapMirror : public VoxelLookup<MapMirror> {
  public:
-  explicit MapMirror(const OccupancyThresholds& thresholds = {}, std::size_t max_blocks = 200'000)
-      : thresholds_(thresholds), max_blocks_(max_blocks) {}
+  explicit MapMirror(const MapHeader& header = {}, std::size_t max_blocks = 200'000)
+      : max_blocks_(max_blocks), map_(header) {}
 
   /// Takes over what has changed since the last snapshot. Cost: O(blocks in the window) in words.
   void update(const MapSnapshot& snapshot);
@@ -31,12 +32,17 @@ class MapMirror {
   void clear();
 
   /// Null where nothing is known.
-  [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const;
+  [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const { return map_.find(index); }
   /// Calls visit(BlockIndex, const VoxelBlock&) for every block, in no order.
   template <class Visit>
-  void for_each_block(Visit&& visit) const {
-    for (const auto& [index, entry] : blocks_) visit(index, entry.block);
+  void for_each_known_block(Visit&& visit) const {
+    map_.for_each_known_block(visit);
   }
+  [[nodiscard]] double voxel_m() const { return map_.voxel_m(); }
+  [[nodiscard]] const LogOddsScale& scale() const { return map_.scale(); }
+  [[nodiscard]] const BlockWindow& extent() const { return map_.extent(); }
+  /// A copy of the whole map, with the frames of the newest snapshot in its header.
+  [[nodiscard]] BlockMap copy() const;
 
   /// Blocks that have changed or gone since the last call, each once.
   [[nodiscard]] std::vector<BlockIndex> take_changes();
@@ -44,12 +50,10 @@ class MapMirror {
   [[nodiscard]] const MapDigest& digest() const { return digest_; }
   [[nodiscard]] const BlockWindow& window() const { return window_; }
   [[nodiscard]] std::uint64_t frame_count() const { return frame_count_; }
-  [[nodiscard]] const OccupancyThresholds& thresholds() const { return thresholds_; }
-  [[nodiscard]] std::uint64_t forgotten() const { return forgotten_; }
 
  private:
+  /// What else is known of a block.
   struct Entry {
-    VoxelBlock block;
     std::uint64_t version = 0;
     MapDigest share;  // of the whole map's digest
     bool is_changed = false;
@@ -58,14 +62,13 @@ class MapMirror {
   void remove(const BlockIndex& index);
   void forget_far_blocks();
 
-  OccupancyThresholds thresholds_;
   std::size_t max_blocks_;
-  std::unordered_map<BlockIndex, Entry, BlockHash> blocks_;
+  BlockMap map_;
+  std::unordered_map<BlockIndex, Entry, BlockHash> entries_;  // one a block of map_
   std::vector<BlockIndex> changes_;
   MapDigest digest_;
   BlockWindow window_{};
   std::uint64_t frame_count_ = 0;
-  std::uint64_t forgotten_ = 0;
 };
 
 }  // namespace swiftlet::station

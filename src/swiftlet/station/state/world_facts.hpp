@@ -13,7 +13,7 @@
 #include "swiftlet/base/frame_of.hpp"
 #include "swiftlet/base/time.hpp"
 #include "swiftlet/frame/intrinsics.hpp"
-#include "swiftlet/map/log_odds.hpp"
+#include "swiftlet/map/map_header.hpp"
 
 namespace swiftlet::station {
 
@@ -23,9 +23,7 @@ struct WorldFacts {
   std::string source;   ///< where the frames or the map come from, for people
   std::string version;  ///< of the program
   bool is_live = false;
-  double voxel_m = 0.2;
-  OccupancyThresholds thresholds;
-  double logodds_per_step = 0.04;
+  MapHeader header{};
   Eigen::Vector3d trigger_m = Eigen::Vector3d::Zero();  ///< half extents of the trigger box
   double min_range_m = 0.0;
   double max_range_m = 0.0;

@@ -16,9 +16,9 @@
 
 namespace swiftlet {
 
-#define SWIFTLET_DECLARE(name, option, summary)                           \
-  Status export_##name(const SavedMap& map, const OccupancyThresholds& t, \
-                       const std::filesystem::path& out, const ExportProgress& progress);
+#define SWIFTLET_DECLARE(name, option, summary)                               \
+  Status export_##name(const SavedMap& map, const std::filesystem::path& out, \
+                       const ExportProgress& progress);
 SWIFTLET_EXPORTERS(SWIFTLET_DECLARE)
 #undef SWIFTLET_DECLARE
 
@@ -31,8 +31,7 @@ std::span<const Registered<ExportMap>> exporters() {
   return kExporters;
 }
 
-Status export_map(std::string_view format, const SavedMap& map,
-                  const OccupancyThresholds& thresholds, const std::filesystem::path& out,
+Status export_map(std::string_view format, const SavedMap& map, const std::filesystem::path& out,
                   const ExportProgress& progress) {
   auto found = find_registered(exporters(), format, "export format");
   if (!found) return forward_error(std::move(found));
@@ -40,7 +39,7 @@ Status export_map(std::string_view format, const SavedMap& map,
     return fail(ErrorCode::kUnsupported, std::string(format), "this build cannot write the format",
                 "install OctoMap and configure with -DSWIFTLET_WITH_OCTOMAP=ON");
   }
-  return found->make(map, thresholds, out, progress);
+  return found->make(map, out, progress);
 }
 
 }  // namespace swiftlet

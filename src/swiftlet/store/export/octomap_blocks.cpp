@@ -12,8 +12,9 @@
 namespace swiftlet {
 namespace {
 
-QuantizedLogOdds cell_of(float log_odds, bool is_occupied, const OccupancyThresholds& thresholds) {
-  const float steps = std::round(log_odds / OctomapBlocks::kLogoddsPerStep);
+QuantizedLogOdds cell_of(float log_odds, bool is_occupied, const LogOddsScale& scale) {
+  const OccupancyThresholds& thresholds = scale.thresholds;
+  const float steps = std::round(log_odds / static_cast<float>(scale.logodds_per_step));
   const float kept = std::isfinite(steps) ? std::clamp(steps, -128.0F, 128.0F) : 0.0F;
   const int cell = kUnknownCell + static_cast<int>(kept);
   return static_cast<QuantizedLogOdds>(
@@ -24,28 +25,23 @@ QuantizedLogOdds cell_of(float log_odds, bool is_occupied, const OccupancyThresh
 /// Lays out leaves as long as there is room.
 class BlockFiller {
  public:
-  BlockFiller(OctomapBlocks& out, const OccupancyThresholds& thresholds)
-      : out_(out), thresholds_(thresholds) {}
+  BlockFiller(OctomapBlocks& out, const LogOddsScale& scale) : out_(out), scale_(scale) {}
 
   void add(const OctomapLeaf& leaf) {
     // The log-odds of a .bt's leaf are 0.
     const float of_state =
         leaf.is_occupied ? OctomapBlocks::kOccupied_logodds : OctomapBlocks::kFree_logodds;
     const QuantizedLogOdds cell =
-        cell_of(leaf.log_odds == 0.0F ? of_state : leaf.log_odds, leaf.is_occupied, thresholds_);
+        cell_of(leaf.log_odds == 0.0F ? of_state : leaf.log_odds, leaf.is_occupied, scale_);
     leaf.edge < kBlockEdge ? fill_cells(leaf, cell) : fill_blocks(leaf, cell);
   }
   [[nodiscard]] bool is_full() const { return is_full_; }
 
  private:
   VoxelBlock* block(const BlockIndex& index) {
-    const auto found = out_.blocks.find(index);
-    if (found != out_.blocks.end()) return &found->second;
-    is_full_ = is_full_ || out_.blocks.size() >= OctomapBlocks::kMostBlocks;
-    if (is_full_) return nullptr;
-    VoxelBlock& made = out_.blocks[index];
-    made.clear();
-    return &made;
+    const bool is_new = out_.blocks.find(index) == nullptr;
+    if (is_new && out_.blocks.block_count() >= OctomapBlocks::kMostBlocks) is_full_ = true;
+    return is_new && is_full_ ? nullptr : &out_.blocks.writable(index);
   }
 
   /// A leaf that is smaller than a block lies within one: both are cut at multiples of their edge.
@@ -78,7 +74,7 @@ class BlockFiller {
   }
 
   OctomapBlocks& out_;
-  const OccupancyThresholds& thresholds_;
+  const LogOddsScale& scale_;
   bool is_full_ = false;
 };
 
@@ -87,7 +83,8 @@ class BlockFiller {
 Expected<OctomapBlocks> read_octomap_blocks(const std::filesystem::path& path,
                                             const OccupancyThresholds& thresholds) {
   OctomapBlocks out;
-  BlockFiller filler(out, thresholds);
+  const LogOddsScale scale{thresholds};
+  BlockFiller filler(out, scale);
   auto summary = read_octomap(path, [&](const OctomapLeaf& leaf) { filler.add(leaf); });
   if (!summary) return forward_error(std::move(summary));
   if (filler.is_full()) {
@@ -97,6 +94,7 @@ Expected<OctomapBlocks> read_octomap_blocks(const std::filesystem::path& path,
                 "'swiftlet info' and 'swiftlet compare' read it leaf by leaf");
   }
   out.summary = std::move(*summary);
+  out.blocks.set_header({out.summary.voxel_m, scale});
   return out;
 }
 

@@ -5,11 +5,9 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <unordered_map>
 
 #include "swiftlet/base/expected.hpp"
-#include "swiftlet/map/log_odds.hpp"
-#include "swiftlet/map/voxel_block.hpp"
+#include "swiftlet/map/block_map.hpp"
 #include "swiftlet/store/export/octomap_import.hpp"
 
 namespace swiftlet {
@@ -21,10 +19,9 @@ struct OctomapBlocks {
   /// What a .bt, which does not tell it, says of a cell: OctoMap's own clamping limits.
   static constexpr float kFree_logodds = -2.0F;
   static constexpr float kOccupied_logodds = 3.5F;
-  static constexpr float kLogoddsPerStep = 0.04F;
 
   OctomapSummary summary;
-  std::unordered_map<BlockIndex, VoxelBlock, BlockHash> blocks;
+  BlockMap blocks;
 };
 
 /// Reads a .bt or .ot as blocks. A cell keeps its state under `thresholds`, whatever its log-odds.

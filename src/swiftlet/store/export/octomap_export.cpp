@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -17,7 +16,7 @@
 
 #include "swiftlet/file/output_file.hpp"
 #include "swiftlet/store/export/exporters.hpp"
-#include "swiftlet/store/export/known_cells.hpp"
+#include "swiftlet/store/export/reported_voxels.hpp"
 
 namespace swiftlet {
 namespace {
@@ -35,17 +34,6 @@ octomap::OcTreeKey key_of(const VoxelIndex& v) {
   return {key(v.x), key(v.y), key(v.z)};
 }
 
-/// Log-odds per step of a cell's byte, if the map says it (method 6).
-float logodds_per_step(const SavedMap& map) {
-  float step = 0.04F;
-  const auto line = map.meta().find("logodds_per_step");
-  if (line != map.meta().end()) {
-    const std::string& text = line->second;
-    std::from_chars(text.data(), text.data() + text.size(), step);
-  }
-  return step;
-}
-
 /// The cell's log-odds, with the sign of its state: OctoMap takes what is >= 0 for occupied, ours
 /// has two thresholds.
 float octomap_logodds(QuantizedLogOdds cell, Occupancy state, float per_step) {
@@ -54,16 +42,15 @@ float octomap_logodds(QuantizedLogOdds cell, Occupancy state, float per_step) {
 }
 
 Expected<std::unique_ptr<octomap::OcTree>> build_tree(const SavedMap& map,
-                                                      const OccupancyThresholds& thresholds,
                                                       const std::filesystem::path& out,
                                                       const ExportProgress& progress) {
   auto tree = std::make_unique<octomap::OcTree>(map.voxel_m());
-  const float per_step = logodds_per_step(map);
+  const auto per_step = static_cast<float>(map.header().scale.logodds_per_step);
   tree->setClampingThresMin(1e-4);  // wider than our bytes, so that it clamps nothing
   tree->setClampingThresMax(1.0 - 1e-4);
   bool fits = true;
-  auto passed = for_each_known_cell(
-      map, thresholds, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
+  auto passed =
+      for_each_known_voxel(map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
         fits = fits && has_key(v);
         if (!fits) return;
         tree->setNodeValue(key_of(v), octomap_logodds(cell, state, per_step), true);
@@ -89,9 +76,9 @@ std::string header(std::string_view first_line, const octomap::OcTree& tree) {
 
 }  // namespace
 
-Status export_bt(const SavedMap& map, const OccupancyThresholds& thresholds,
-                 const std::filesystem::path& out, const ExportProgress& progress) {
-  auto tree = build_tree(map, thresholds, out, progress);
+Status export_bt(const SavedMap& map, const std::filesystem::path& out,
+                 const ExportProgress& progress) {
+  auto tree = build_tree(map, out, progress);
   if (!tree) return forward_error(std::move(tree));
   (*tree)->toMaxLikelihood();  // reduces each cell to free or occupied
   (*tree)->prune();
@@ -102,9 +89,9 @@ Status export_bt(const SavedMap& map, const OccupancyThresholds& thresholds,
   return file->commit();
 }
 
-Status export_ot(const SavedMap& map, const OccupancyThresholds& thresholds,
-                 const std::filesystem::path& out, const ExportProgress& progress) {
-  auto tree = build_tree(map, thresholds, out, progress);
+Status export_ot(const SavedMap& map, const std::filesystem::path& out,
+                 const ExportProgress& progress) {
+  auto tree = build_tree(map, out, progress);
   if (!tree) return forward_error(std::move(tree));
   (*tree)->prune();  // joins eight equal cells only
   auto file = OutputFile::create(out, std::array{map.path()});

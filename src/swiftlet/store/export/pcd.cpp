@@ -10,17 +10,17 @@
 #include "swiftlet/file/output_file.hpp"
 #include "swiftlet/store/export/exporters.hpp"
 #include "swiftlet/store/export/far_points.hpp"
-#include "swiftlet/store/export/known_cells.hpp"
+#include "swiftlet/store/export/reported_voxels.hpp"
 
 namespace swiftlet {
 
-Status export_pcd(const SavedMap& map, const OccupancyThresholds& thresholds,
-                  const std::filesystem::path& out, const ExportProgress& progress) {
-  auto summary = summarize(map, thresholds);
+Status export_pcd(const SavedMap& map, const std::filesystem::path& out,
+                  const ExportProgress& progress) {
+  auto summary = summarize(map);
   if (!summary) return forward_error(std::move(summary));
   auto file = OutputFile::create(out, std::array{map.path()});
   if (!file) return forward_error(std::move(file));
-  const std::uint64_t points = summary->count(Occupancy::kOccupied);
+  const std::uint64_t points = summary->cells.occupied;
   // PCL takes coordinates as floats and no others; where these do not suffice, their origin moves.
   const Eigen::Vector3d origin_m = point_origin(summary->bounds, map.voxel_m());
   const std::string shift = origin_m.isZero()
@@ -32,8 +32,8 @@ Status export_pcd(const SavedMap& map, const OccupancyThresholds& thresholds,
                   "VERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
                   "WIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
                   points, shift));
-  auto passed = for_each_known_cell(
-      map, thresholds, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
+  auto passed =
+      for_each_known_voxel(map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
         if (state != Occupancy::kOccupied) return;
         const Eigen::Vector3f p = (centre_of(v, map.voxel_m()) - origin_m).cast<float>();
         const auto intensity = static_cast<float>(cell);
@@ -45,8 +45,8 @@ Status export_pcd(const SavedMap& map, const OccupancyThresholds& thresholds,
   return file->commit();
 }
 
-Expected<Eigen::Vector3d> pcd_origin(const SavedMap& map, const OccupancyThresholds& thresholds) {
-  auto summary = summarize(map, thresholds);
+Expected<Eigen::Vector3d> pcd_origin(const SavedMap& map) {
+  auto summary = summarize(map);
   if (!summary) return forward_error(std::move(summary));
   return point_origin(summary->bounds, map.voxel_m());
 }

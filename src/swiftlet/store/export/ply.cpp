@@ -13,7 +13,7 @@
 #include "swiftlet/file/output_file.hpp"
 #include "swiftlet/store/export/exporters.hpp"
 #include "swiftlet/store/export/far_points.hpp"
-#include "swiftlet/store/export/known_cells.hpp"
+#include "swiftlet/store/export/reported_voxels.hpp"
 
 namespace swiftlet {
 namespace {
@@ -44,18 +44,18 @@ std::string header(std::uint64_t points, const SavedMap& map, std::string_view c
 
 }  // namespace
 
-Status export_ply(const SavedMap& map, const OccupancyThresholds& thresholds,
-                  const std::filesystem::path& out, const ExportProgress& progress) {
-  auto summary = summarize(map, thresholds);
+Status export_ply(const SavedMap& map, const std::filesystem::path& out,
+                  const ExportProgress& progress) {
+  auto summary = summarize(map);
   if (!summary) return forward_error(std::move(summary));
   auto file = OutputFile::create(out, std::array{map.path()});
   if (!file) return forward_error(std::move(file));
   const bool is_float = floats_suffice(summary->bounds);
-  file->write(header(summary->count(Occupancy::kOccupied), map, is_float ? "float" : "double"));
+  file->write(header(summary->cells.occupied, map, is_float ? "float" : "double"));
   const VoxelBox box = summary->bounds.value_or(VoxelBox{});
   const double height = std::max(1, box.last.z - box.first.z);
-  auto passed = for_each_known_cell(
-      map, thresholds, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
+  auto passed =
+      for_each_known_voxel(map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
         if (state != Occupancy::kOccupied) return;
         for (const double c : centre_of(v, map.voxel_m())) {
           is_float ? file->write_little_endian(static_cast<float>(c))

@@ -13,6 +13,7 @@
 #include <unordered_set>
 
 #include "swiftlet/base/number_text.hpp"
+#include "swiftlet/store/map_file/header_lines.hpp"
 #include "swiftlet/store/map_file/map_pages.hpp"
 #include "swiftlet/store/map_file/recovered_map.hpp"
 
@@ -137,6 +138,10 @@ void make_readable(MapMeta& meta, double voxel_m, const Finder& found,
     meta.erase(start);
     notes.emplace_back("its start_m is no place in the world and is left out");
   }
+  if (!thresholds_from(meta, {})) {
+    for (const char* line : {"free_below", "occupied_from", "config"}) meta.erase(line);
+    notes.emplace_back("its thresholds cannot be meant; defaults stand in");
+  }
   if (number_from<std::uint64_t>(meta["frames"])) return;
   std::int64_t newest = 0;
   for (const auto& [index, place] : found.good_) newest = std::max(newest, place.touched);
@@ -161,7 +166,9 @@ Expected<MapMeta> described(const Finder& found, const fs::path& path,
   if (is_sound) return meta;
   notes.push_back(fmt::format(
       "its description is damaged: a cell size of {} m is what can be read of it", *voxel_m));
-  if (meta.erase("config") > 0) notes.emplace_back("its config is left out; defaults stand in");
+  const std::size_t left_out =
+      meta.erase("config") + meta.erase("free_below") + meta.erase("occupied_from");
+  if (left_out > 0) notes.emplace_back("its config and thresholds are left out; defaults stand in");
   const auto step = meta.find("logodds_per_step");
   if (step == meta.end()) return meta;
   const auto value = number_from<double>(step->second);

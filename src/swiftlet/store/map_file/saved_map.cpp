@@ -5,23 +5,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <string_view>
 #include <utility>
 
-#include "swiftlet/base/number_text.hpp"
 #include "swiftlet/store/map_file/block_codec.hpp"
+#include "swiftlet/store/map_file/header_lines.hpp"
 
 namespace swiftlet {
 namespace {
-
-template <class T>
-std::optional<T> number_of(const MapMeta& meta, const std::string& key) {
-  const auto line = meta.find(key);
-  if (line == meta.end()) return std::nullopt;
-  return number_from<T>(line->second);
-}
 
 Status compare_seals(const MapSeal& found, const MapSeal& sealed, const std::string& where) {
   if (found.blocks == sealed.blocks && found.block_digest == sealed.block_digest) return Done{};
@@ -31,21 +21,6 @@ Status compare_seals(const MapSeal& found, const MapSeal& sealed, const std::str
 }
 
 }  // namespace
-
-std::optional<std::array<double, 3>> place_from(std::string_view text, double voxel_m) {
-  constexpr double kMostVoxels = 2147483648.0;  // an index is an int32
-  std::array<double, 3> place{};
-  for (double& axis : place) {
-    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const auto value = number_from<double>(text.substr(0, end));
-    if (!value || !(std::abs(*value) < kMostVoxels * voxel_m)) return std::nullopt;
-    axis = *value;
-    text.remove_prefix(end);
-  }
-  if (text.find_first_not_of(' ') != std::string_view::npos) return std::nullopt;
-  return place;
-}
 
 Expected<SavedMap> load_map(const std::filesystem::path& path) {
   return SavedMap::of(path, MapFile::open_to_read(path));
@@ -59,25 +34,13 @@ Expected<SavedMap> SavedMap::of(const std::filesystem::path& path, Expected<MapF
   if (!meta) return forward_error(std::move(meta));
   auto seal = file.seal();
   if (!seal) return forward_error(std::move(seal));
-  const auto voxel_m = number_of<double>(*meta, "voxel_m");
-  const auto frames = number_of<std::uint64_t>(*meta, "frames");
-  const bool is_sane = voxel_m && frames && std::isfinite(*voxel_m) && *voxel_m > 0.0;
-  if (!is_sane || seal->blocks < 0) {
-    return fail(ErrorCode::kCorruptInput, path.string(),
-                "the map does not say its cell size or its number of frames");
-  }
+  if (seal->blocks < 0)
+    return fail(ErrorCode::kCorruptInput, path.string(), "the map counts less than no blocks");
+  auto header = header_from(*meta, path.string());
+  if (!header) return forward_error(std::move(header));
   SavedMap map;
-  if (const auto start = meta->find("start_m"); start != meta->end()) {
-    map.start_m_ = place_from(start->second, *voxel_m);
-    if (!map.start_m_) {
-      return fail(ErrorCode::kCorruptInput, path.string(),
-                  "its start_m is no place in the world: three numbers in metres are expected",
-                  "--salvage reads the map without it");
-    }
-  }
   map.path_ = path;
-  map.voxel_m_ = *voxel_m;
-  map.frames_ = *frames;
+  map.header_ = *header;
   map.block_count_ = static_cast<std::uint64_t>(seal->blocks);
   map.meta_ = std::move(*meta);
   map.file_ = std::make_unique<MapFile>(std::move(file));
@@ -117,19 +80,10 @@ Expected<std::optional<VoxelBlock>> SavedMap::find(const BlockIndex& index) cons
   return *found ? std::optional(block) : std::nullopt;
 }
 
-Expected<MapSummary> summarize(const SavedMap& map, const OccupancyThresholds& thresholds) {
+Expected<MapSummary> summarize(const SavedMap& map) {
   MapSummary summary;
   auto passed = map.for_each_block([&](const BlockIndex& index, const VoxelBlock& block) -> Status {
-    for (int offset = 0; offset < kBlockVoxels; ++offset) {
-      const Occupancy state = thresholds.classify(block.cells[static_cast<std::size_t>(offset)]);
-      ++summary.cells[static_cast<std::size_t>(state)];
-      if (state == Occupancy::kUnknown) continue;
-      const VoxelIndex v = voxel_at(index, offset);
-      if (!summary.bounds) summary.bounds = VoxelBox{v, v};
-      auto& [low, high] = *summary.bounds;
-      low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-    }
+    summary.add(index, block, map.thresholds());
     return Done{};
   });
   if (!passed) return forward_error(std::move(passed));

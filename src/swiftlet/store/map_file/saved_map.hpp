@@ -3,19 +3,17 @@
 
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "swiftlet/base/expected.hpp"
-#include "swiftlet/base/grid_ray.hpp"
-#include "swiftlet/map/log_odds.hpp"
+#include "swiftlet/map/map_header.hpp"
 #include "swiftlet/map/voxel_block.hpp"
+#include "swiftlet/query/map_summary.hpp"
 #include "swiftlet/store/map_file/map_file.hpp"
 
 namespace swiftlet {
@@ -27,13 +25,13 @@ namespace swiftlet {
 class SavedMap {
  public:
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] double voxel_m() const { return voxel_m_; }
-  /// Frames that the map had seen when it was last written.
-  [[nodiscard]] std::uint64_t frames() const { return frames_; }
+  /// Cell size, thresholds and what a step is worth, frames, start: as it was last written.
+  [[nodiscard]] const MapHeader& header() const { return header_; }
+  [[nodiscard]] double voxel_m() const { return header_.voxel_m; }
+  [[nodiscard]] const OccupancyThresholds& thresholds() const { return header_.scale.thresholds; }
+  [[nodiscard]] std::uint64_t frames() const { return header_.frame_count; }
   [[nodiscard]] std::uint64_t block_count() const { return block_count_; }
   [[nodiscard]] const MapMeta& meta() const { return meta_; }
-  /// The camera at the first frame [m, world]; nullopt if the map does not tell it.
-  [[nodiscard]] const std::optional<std::array<double, 3>>& start_m() const { return start_m_; }
 
   /// A map file that is open to be read; sees one state of it from now on. Errors: as load_map().
   [[nodiscard]] static Expected<SavedMap> of(const std::filesystem::path& path,
@@ -51,11 +49,9 @@ class SavedMap {
   SavedMap() = default;
 
   std::filesystem::path path_;
-  double voxel_m_ = 0.0;
-  std::uint64_t frames_ = 0;
+  MapHeader header_;
   std::uint64_t block_count_ = 0;
   MapMeta meta_;
-  std::optional<std::array<double, 3>> start_m_;
   mutable std::unique_ptr<MapFile> file_;  // reading moves a cursor, not the map
 };
 
@@ -63,21 +59,8 @@ class SavedMap {
 /// Errors: kNotFound, kCorruptInput, kUnsupported if it is of a newer version, kIo.
 [[nodiscard]] Expected<SavedMap> load_map(const std::filesystem::path& path);
 
-/// The place that the text of `start_m` tells: three numbers with blanks between; nullopt if that
-/// is no place where a map with cells of `voxel_m` can be.
-[[nodiscard]] std::optional<std::array<double, 3>> place_from(std::string_view text,
-                                                              double voxel_m);
-
-/// What `swiftlet info` tells about the cells of a map.
-struct MapSummary {
-  std::array<std::uint64_t, 3> cells{};  ///< by Occupancy, in the stored blocks
-  std::optional<VoxelBox> bounds;        ///< of the free and occupied cells
-  [[nodiscard]] std::uint64_t count(Occupancy state) const {
-    return cells[static_cast<std::size_t>(state)];
-  }
-};
-[[nodiscard]] Expected<MapSummary> summarize(const SavedMap& map,
-                                             const OccupancyThresholds& thresholds);
+/// How much a map file knows, and where, by its own thresholds. Errors: those of for_each_block().
+[[nodiscard]] Expected<MapSummary> summarize(const SavedMap& map);
 
 /// Everything that is wrong with a file, read from its first byte to its last; empty if nothing is.
 [[nodiscard]] std::vector<Error> check_map(const std::filesystem::path& path);

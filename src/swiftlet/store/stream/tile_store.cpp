@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "swiftlet/base/start_thread.hpp"
+#include "swiftlet/store/map_file/header_lines.hpp"
 
 namespace swiftlet {
 namespace {
@@ -197,6 +198,7 @@ Status save_map(const std::filesystem::path& path, const MapSnapshot& map, bool 
   options.overwrite = overwrite;
   options.pending_blocks = 1;  // one batch, from the snapshot
   options.cache_blocks = 1;
+  put_header({map.voxel_m(), map.scale(), map.frame_count()}, meta);
   auto store = TileStore::create(path, map.voxel_m(), options, std::move(meta));
   if (!store) return forward_error(std::move(store));
   return (*store)->close(map);

@@ -144,7 +144,7 @@ class TileStore final : public BlockArchive {
   std::thread thread_;  // started by open()
 };
 
-/// Saves one snapshot as a map file.
+/// Saves one snapshot as a map file, with its cell size and thresholds.
 [[nodiscard]] Status save_map(const std::filesystem::path& path, const MapSnapshot& map,
                               bool overwrite = false, MapMeta meta = {});
 

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "swiftlet/query/known_voxels.hpp"
 #include "swiftlet/store/export/exporters.hpp"
 
 namespace swiftlet {
@@ -30,17 +31,14 @@ class BlockProgress {
   const ExportProgress& progress_;
 };
 
-/// Calls visit(VoxelIndex, QuantizedLogOdds, Occupancy) for every free and occupied cell of a map.
+/// Calls visit(VoxelIndex, QuantizedLogOdds, Occupancy) for every free and occupied cell of a map file,
+/// block by block.
 template <class Visit>
-[[nodiscard]] Status for_each_known_cell(const SavedMap& map, const OccupancyThresholds& thresholds,
-                                         const ExportProgress& progress, Visit&& visit) {
+[[nodiscard]] Status for_each_known_voxel(const SavedMap& map, const ExportProgress& progress,
+                                          Visit&& visit) {
   BlockProgress blocks(map, progress);
   auto passed = map.for_each_block([&](const BlockIndex& index, const VoxelBlock& block) -> Status {
-    for (int offset = 0; offset < kBlockVoxels; ++offset) {
-      const QuantizedLogOdds cell = block.cells[static_cast<std::size_t>(offset)];
-      const Occupancy state = thresholds.classify(cell);
-      if (state != Occupancy::kUnknown) visit(voxel_at(index, offset), cell, state);
-    }
+    for_each_known_voxel(index, block, map.thresholds(), visit);
     blocks.next();
     return Done{};
   });

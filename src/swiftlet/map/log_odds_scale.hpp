@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <cmath>
+
+#include "swiftlet/map/log_odds.hpp"
+
+namespace swiftlet {
+
+/// How the cells of one map are read: what a step is worth, and where belief becomes a claim.
+struct LogOddsScale {
+  OccupancyThresholds thresholds{};
+  double logodds_per_step = 0.04;  ///< natural logarithm of the odds, for one step of a cell
+
+  [[nodiscard]] constexpr Occupancy classify(LogOdds cell) const {
+    return thresholds.classify(cell);
+  }
+  /// Probability that there is matter in the cell, 0 to 1; 0.5 where nothing is known.
+  [[nodiscard]] double probability(LogOdds cell) const {
+    return 1.0 / (1.0 + std::exp((kUnknownCell - cell) * logodds_per_step));
+  }
+  friend constexpr bool operator==(const LogOddsScale&, const LogOddsScale&) = default;
+};
+
+}  // namespace swiftlet
