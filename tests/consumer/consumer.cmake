@@ -21,7 +21,14 @@ function(consumer_case name)
                                                          FIXTURES_SETUP consumer_${name}_built)
   set_tests_properties(consumer.${name}.configure consumer.${name}.build PROPERTIES LABELS consumer)
   foreach(program IN LISTS CASE_PROGRAMS)
-    add_test(NAME consumer.${name}.${program} COMMAND ${consumer_dir}/${name}/${program})
+    set(arguments "")
+    if(program STREQUAL "library_tour")
+      if(NOT SWIFTLET_HAS_EMBREE)  # no flight at hand; that it links is shown
+        continue()
+      endif()
+      set(arguments ${PROJECT_SOURCE_DIR}/examples/configs/indoor.yaml sim:wall ${consumer_dir}/${name}/tour)
+    endif()
+    add_test(NAME consumer.${name}.${program} COMMAND ${consumer_dir}/${name}/${program} ${arguments})
     set_tests_properties(consumer.${name}.${program} PROPERTIES FIXTURES_REQUIRED consumer_${name}_built LABELS consumer)
   endforeach()
 endfunction()
@@ -34,8 +41,28 @@ if(SWIFTLET_INSTALL)
   set_tests_properties(consumer.clear PROPERTIES LABELS consumer FIXTURES_SETUP consumer_cleared)
   set_tests_properties(consumer.install PROPERTIES LABELS consumer FIXTURES_REQUIRED consumer_cleared
                                                    FIXTURES_SETUP consumer_installed)
-  consumer_case(find_package PROGRAMS use_core use_all CONFIGURE -DCMAKE_PREFIX_PATH=${consumer_dir}/prefix)
+  consumer_case(find_package PROGRAMS use_core use_all library_tour
+                CONFIGURE -DCMAKE_PREFIX_PATH=${consumer_dir}/prefix)
   set_tests_properties(consumer.find_package.configure PROPERTIES FIXTURES_REQUIRED consumer_installed)
+  # The core alone, on a machine that has nothing of what the rest needs.
+  set(not_there "")
+  foreach(package SQLite3 PNG yaml-cpp BZip2 OpenSSL embree octomap realsense2)
+    list(APPEND not_there -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+  endforeach()
+  consumer_case(core_alone PROGRAMS use_core
+                CONFIGURE -DCMAKE_PREFIX_PATH=${consumer_dir}/prefix -DSWIFTLET_COMPONENTS=core ${not_there})
+  set_tests_properties(consumer.core_alone.configure PROPERTIES FIXTURES_REQUIRED consumer_installed)
+  # pkg-config, for who does not use CMake.
+  set(pc_path ${consumer_dir}/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  foreach(use swiftlet-core:use_core swiftlet:use_all)
+    string(REGEX REPLACE ":.*" "" package ${use})
+    string(REGEX REPLACE ".*:" "" program ${use})
+    set(built ${consumer_dir}/${package}.by_pkg_config)
+    add_test(NAME consumer.pkg_config.${package}
+             COMMAND sh -c "set -e; flags=$(PKG_CONFIG_PATH=${pc_path} pkg-config --cflags --libs ${package}); \
+${CMAKE_CXX_COMPILER} -std=c++20 ${CMAKE_CURRENT_SOURCE_DIR}/consumer/${program}.cpp -o ${built} $flags; ${built}")
+    set_tests_properties(consumer.pkg_config.${package} PROPERTIES FIXTURES_REQUIRED consumer_installed LABELS consumer)
+  endforeach()
 endif()
 # The core alone: the rest would compile once more what the build before has shown to compile.
 consumer_case(add_subdirectory PROGRAMS use_core CONFIGURE -DSWIFTLET_FOLDER=${PROJECT_SOURCE_DIR})

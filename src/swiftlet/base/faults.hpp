@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,15 @@ using Faults = std::vector<Error>;
 template <class T>
 [[nodiscard]] Faults fault_of(Expected<T>&& failed) {
   return {std::move(failed).error()};
+}
+
+/// For people.
+[[nodiscard]] inline std::string text_of(const Error& fault) { return fault.text(); }
+/// One a line.
+[[nodiscard]] inline std::string text_of(const Faults& faults) {
+  std::string text;
+  for (const Error& fault : faults) text += (text.empty() ? "" : "\n") + fault.text();
+  return text;
 }
 
 }  // namespace swiftlet

@@ -16,10 +16,11 @@
 
 namespace swiftlet {
 
+/// Where a session writes, and who looks on.
 struct SessionOptions {
-  std::string path;  ///< of the map file
-  TileStoreOptions store;
-  MapMeta meta;
+  std::string path;                     ///< of the map file
+  TileStoreOptions store{};             ///< how the map file is written
+  MapMeta meta{};                       ///< lines that describe the map (docs/formats/map_file.md)
   SessionObserver* observer = nullptr;  ///< null: nobody looks on; else it outlives the session
 };
 
@@ -51,7 +52,9 @@ class MappingSession {
   /// Where the map is that should have been replaced, if save() has left it; else empty.
   [[nodiscard]] const std::filesystem::path& aside() const { return aside_; }
 
+  /// What the session did so far.
   [[nodiscard]] const MappingSummary& summary() const { return summary_; }
+  /// For what the caller knows of the flight.
   [[nodiscard]] MappingSummary& summary() { return summary_; }
 
  private:

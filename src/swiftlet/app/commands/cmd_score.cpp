@@ -51,8 +51,7 @@ tl::expected<eval::ScoreJob, Faults> job_of(const ScoreOptions& options) {
 Faults score(const ScoreOptions& options) {
   auto job = job_of(options);
   if (!job) return std::move(job).error();
-  const bool is_simulated = options.source.starts_with("sim:");
-  auto report = is_simulated ? eval::score_flight(*job) : eval::score_recording(*job);
+  auto report = eval::score_source(*job);
   job->progress = {};  // the line of the last work ends
   if (!report) return fault_of(std::move(report));
   if (options.as_json) {

@@ -38,4 +38,8 @@ Expected<std::vector<Entrant>> make_entrants(const ScoreJob& job) {
   return entrants;
 }
 
+Expected<ScoreReport> score_source(const ScoreJob& job) {
+  return job.source.starts_with("sim:") ? score_flight(job) : score_recording(job);
+}
+
 }  // namespace swiftlet::eval

@@ -20,15 +20,16 @@ struct ScoreJob {
   MapperConfig config;            ///< of our maps; cell size and range of all
   std::vector<std::string> maps;  ///< names of measurement models or integrators, or "octomap"
   std::size_t frames = 600;       ///< evenly over the flight
-  ProgressFunction progress{};
+  ProgressFunction progress{};    ///< told of the frames; may be empty
 };
 
 /// A map that takes part. Names are unique.
 struct Entrant {
-  std::string name;
-  std::unique_ptr<Contender> map;
+  std::string name;                ///< shown in the report
+  std::unique_ptr<Contender> map;  ///< made anew for the job
 };
 
+/// The name of OctoMap among the maps of a job.
 inline constexpr const char* kOctomap = "octomap";
 
 /// The maps of a job. Errors: kUsage for a name that is neither model nor integrator; kUnsupported for OctoMap if
@@ -43,5 +44,8 @@ inline constexpr const char* kOctomap = "octomap";
 /// Maps a recording but for every fifth frame and judges the maps by those.
 /// Errors: those of the source and of make_entrants(); kCorruptInput for fewer than five frames.
 [[nodiscard]] Expected<ScoreReport> score_recording(const ScoreJob& job);
+
+/// The one or the other, by what the source is: by the truth where there is one.
+[[nodiscard]] Expected<ScoreReport> score_source(const ScoreJob& job);
 
 }  // namespace swiftlet::eval
