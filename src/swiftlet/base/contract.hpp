@@ -13,6 +13,7 @@ using ContractHandler = void (*)(const char* condition, const char* message, con
 /// Replaces the handler and returns the old one. Not thread-safe: call it at start-up.
 ContractHandler set_contract_handler(ContractHandler replacement);
 
+/// What SWIFTLET_REQUIRE calls.
 [[noreturn]] void contract_broken(const char* condition, const char* message, const char* file,
                                   int line);
 

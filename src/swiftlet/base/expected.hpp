@@ -25,11 +25,12 @@ enum class ErrorCode : std::uint8_t {
 /// An error as a value: where it is, what is wrong, and what the user can do about it.
 /// Printed by the program as `swiftlet: <where>: <what>; <remedy>`.
 struct Error {
-  ErrorCode code;
+  ErrorCode code;      ///< what kind of thing went wrong
   std::string where;   ///< file, line, option or part; may be empty
   std::string what;    ///< one sentence, no capital, no full stop
   std::string remedy;  ///< what to do; may be empty
 
+  /// For people, in one line: `where: what; remedy`.
   [[nodiscard]] std::string text() const {
     std::string line = where.empty() ? what : where + ": " + what;
     if (!remedy.empty()) line += "; " + remedy;
@@ -37,13 +38,16 @@ struct Error {
   }
 };
 
+/// A value, or why there is none. `if (result) use(*result); else tell(result.error().text());`
 template <class T>
 using Expected = tl::expected<T, Error>;
 
 /// The value of an operation that has none.
 struct Done {};
+/// Done, or why not.
 using Status = Expected<Done>;
 
+/// An error, for `return fail(...)`.
 [[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string where, std::string what,
                                                 std::string remedy = {}) {
   return tl::make_unexpected(Error{code, std::move(where), std::move(what), std::move(remedy)});

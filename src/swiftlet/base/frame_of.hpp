@@ -17,7 +17,9 @@ struct Camera {};  ///< x right, y down, z forward along the optical axis
 /// rotation of rounding. Accepts |q| within 1e-3 of 1 (text files carry four digits) and R^T R
 /// within 5e-3 of the identity, det > 0. Errors: kCorruptInput with the reason.
 [[nodiscard]] Expected<Eigen::Quaterniond> checked_rotation(const Eigen::Quaterniond& q);
+/// The same of a rotation matrix.
 [[nodiscard]] Expected<Eigen::Quaterniond> checked_rotation(const Eigen::Matrix3d& R);
+/// Errors: kCorruptInput if it is not finite.
 [[nodiscard]] Status check_translation(const Eigen::Vector3d& t);
 
 /// Rigid transform that maps points of frame From to frame To: p_to = T_to_from * p_from [m].
@@ -28,6 +30,8 @@ class Transform {
   /// The identity: both frames coincide.
   Transform() = default;
 
+  /// From a rotation and a translation [m]. Errors: kCorruptInput, as checked_rotation() and
+  /// check_translation().
   [[nodiscard]] static Expected<Transform> from(const Eigen::Quaterniond& rotation,
                                                 const Eigen::Vector3d& translation_m) {
     return checked(rotation, translation_m);
@@ -43,16 +47,21 @@ class Transform {
     return checked(Eigen::Matrix3d(T.topLeftCorner<3, 3>()), T.topRightCorner<3, 1>());
   }
 
+  /// Turns From's axes into To's; of length 1.
   [[nodiscard]] const Eigen::Quaterniond& rotation() const { return rotation_; }
+  /// From's origin in To [m].
   [[nodiscard]] const Eigen::Vector3d& translation() const { return translation_m_; }
 
+  /// Maps back.
   [[nodiscard]] Transform<From, To> inverse() const {
     const Eigen::Quaterniond back = rotation_.conjugate();
     return Transform<From, To>::trusted(back, -(back * translation_m_));
   }
+  /// A point [m] of From in To.
   [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& p_from) const {
     return rotation_ * p_from + translation_m_;
   }
+  /// Composes neighbours: `T_world_camera = T_world_body * T_body_camera`.
   template <class Next>
   [[nodiscard]] Transform<To, Next> operator*(const Transform<From, Next>& T_from_next) const {
     return Transform<To, Next>::trusted((rotation_ * T_from_next.rotation()).normalized(),

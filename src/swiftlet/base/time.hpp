@@ -13,16 +13,20 @@
 
 namespace swiftlet {
 
+/// A duration.
 using Nanoseconds = std::chrono::nanoseconds;
 
 /// A point in time: nanoseconds of the source's own clock. Never a double of seconds, which loses
 /// nanoseconds at today's epoch.
 struct Stamp {
-  std::int64_t ns = 0;
+  std::int64_t ns = 0;  ///< since the clock's own zero
 
   friend constexpr auto operator<=>(Stamp, Stamp) = default;
+  /// What lies between two stamps.
   friend constexpr Nanoseconds operator-(Stamp a, Stamp b) { return Nanoseconds(a.ns - b.ns); }
+  /// Later by a duration.
   friend constexpr Stamp operator+(Stamp a, Nanoseconds d) { return {a.ns + d.count()}; }
+  /// Earlier by a duration.
   friend constexpr Stamp operator-(Stamp a, Nanoseconds d) { return {a.ns - d.count()}; }
 };
 
@@ -38,9 +42,11 @@ enum class ClockDomain : std::uint8_t {
   kSystem,       ///< the host's clock at arrival, late by exposure and transfer
   kDevice,       ///< the device's own, from its power-on: no other device shares it
 };
+/// For people, by ClockDomain.
 inline constexpr std::array<std::string_view, 4> kClockDomainNames{
     "unspecified clock", "global time", "system time", "the device's own clock"};
 
+/// For people.
 [[nodiscard]] constexpr std::string_view name_of(ClockDomain clock) {
   return kClockDomainNames[static_cast<std::size_t>(clock)];
 }

@@ -15,9 +15,10 @@ namespace swiftlet {
 
 /// A box of cells: [first, last] along each axis, both inside.
 struct VoxelBox {
-  VoxelIndex first;
-  VoxelIndex last;
+  VoxelIndex first;  ///< the least index along each axis
+  VoxelIndex last;   ///< the greatest
 
+  /// Whether a cell lies in the box.
   [[nodiscard]] constexpr bool contains(const VoxelIndex& v) const {
     return v.x >= first.x && v.x <= last.x && v.y >= first.y && v.y <= last.y && v.z >= first.z &&
            v.z <= last.z;

@@ -15,18 +15,24 @@ namespace swiftlet {
 /// + 0.5) * voxel_m. The index never changes: it names the same piece of space before and after the
 /// window moves.
 struct VoxelIndex {
-  std::int32_t x = 0, y = 0, z = 0;
+  std::int32_t x = 0;  ///< forward [cells]
+  std::int32_t y = 0;  ///< left [cells]
+  std::int32_t z = 0;  ///< up [cells]
   friend constexpr auto operator<=>(const VoxelIndex&, const VoxelIndex&) = default;
 };
 
-/// Voxels per block edge and per block.
+/// Voxels per block edge.
 inline constexpr int kBlockEdge = 8;
+/// Its logarithm to base 2.
 inline constexpr int kBlockShift = 3;
+/// Voxels per block.
 inline constexpr int kBlockVoxels = kBlockEdge * kBlockEdge * kBlockEdge;
 
 /// A block of 8 x 8 x 8 voxels. Block b holds the voxels [8 b, 8 b + 8) along each axis.
 struct BlockIndex {
-  std::int32_t x = 0, y = 0, z = 0;
+  std::int32_t x = 0;  ///< forward [blocks]
+  std::int32_t y = 0;  ///< left [blocks]
+  std::int32_t z = 0;  ///< up [blocks]
   friend constexpr auto operator<=>(const BlockIndex&, const BlockIndex&) = default;
 };
 
@@ -56,6 +62,7 @@ struct BlockIndex {
                                     ((v.y & kMask) << kBlockShift) | (v.x & kMask));
 }
 
+/// The voxel of a block with the least index along each axis.
 [[nodiscard]] constexpr VoxelIndex first_voxel(const BlockIndex& b) {
   return {b.x * kBlockEdge, b.y * kBlockEdge, b.z * kBlockEdge};
 }
@@ -75,8 +82,10 @@ struct BlockIndex {
   return v ^ (v >> 31);
 }
 
+/// For hash tables whose keys are places.
 template <class Index>
 struct IndexHash {
+  /// Well mixed, and the same on every machine.
   [[nodiscard]] constexpr std::size_t operator()(const Index& i) const {
     const auto word = [](std::int32_t v) {
       return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v));
@@ -84,7 +93,9 @@ struct IndexHash {
     return mix_bits(mix_bits(word(i.x) | (word(i.y) << 32)) ^ word(i.z));
   }
 };
+/// For hash tables of voxels.
 using VoxelHash = IndexHash<VoxelIndex>;
+/// For hash tables of blocks.
 using BlockHash = IndexHash<BlockIndex>;
 
 }  // namespace swiftlet

@@ -23,8 +23,8 @@ struct ConfigInput {
 
 /// The parameters, and the place of each that the user gave: key -> "flight.yaml:3" or "--set".
 struct LoadedConfig {
-  MapperConfig mapper;
-  std::map<std::string, std::string, std::less<>> places;
+  MapperConfig mapper;  ///< checked, defaults where the user gave nothing
+  std::map<std::string, std::string, std::less<>> places;  ///< where the user gave what
   Faults warnings;  ///< what was accepted, but will not be by the next version (config_aliases.hpp)
 };
 

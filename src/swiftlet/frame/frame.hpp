@@ -19,21 +19,21 @@ using HostTime = std::chrono::steady_clock::time_point;
 
 /// What a depth camera saw, before anyone knows from where.
 struct DepthFrame {
-  Stamp stamp;  ///< of the middle of the exposure
-  DepthImage depth;
-  PinholeIntrinsics intrinsics;
-  std::uint8_t camera = 0;  ///< which one of the rig
-  ClockDomain clock = ClockDomain::kUnspecified;
-  std::optional<HostTime> seen_at{};  ///< as in Frame
+  Stamp stamp;                                    ///< of the middle of the exposure
+  DepthImage depth;                               ///< as it was delivered
+  PinholeIntrinsics intrinsics;                   ///< of this image
+  std::uint8_t camera = 0;                        ///< which one of the rig
+  ClockDomain clock = ClockDomain::kUnspecified;  ///< whose clock the stamp was read from
+  std::optional<HostTime> seen_at{};              ///< as in Frame
 };
 
 /// A depth image with the pose of the camera at its time: all that the mapper needs.
 struct Frame {
-  Stamp stamp;
-  DepthImage depth;
-  PinholeIntrinsics intrinsics;
-  Transform<World, Camera> T_world_camera;
-  std::uint8_t camera = 0;  ///< which one of the rig
+  Stamp stamp;                              ///< when the image was exposed
+  DepthImage depth;                         ///< as it was delivered
+  PinholeIntrinsics intrinsics;             ///< of this image
+  Transform<World, Camera> T_world_camera;  ///< where the camera was
+  std::uint8_t camera = 0;                  ///< which one of the rig
   /// Frames of different epochs share no world: after the pose source has lost its place, whoever
   /// maps must start again.
   std::uint32_t pose_epoch = 0;

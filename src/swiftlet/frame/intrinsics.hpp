@@ -21,11 +21,17 @@ class PinholeIntrinsics {
   [[nodiscard]] static Expected<PinholeIntrinsics> from_field_of_view(int width, int height,
                                                                       double hfov_rad);
 
+  /// Of the image [px]
   [[nodiscard]] int width() const { return width_; }
+  /// Of the image [px]
   [[nodiscard]] int height() const { return height_; }
+  /// Focal length along x [px]
   [[nodiscard]] double fx() const { return fx_; }
+  /// Focal length along y [px]
   [[nodiscard]] double fy() const { return fy_; }
+  /// Principal point along x [px]
   [[nodiscard]] double cx() const { return cx_; }
+  /// Principal point along y [px]
   [[nodiscard]] double cy() const { return cy_; }
 
   /// The point [m, camera] that pixel (u, v) sees at depth z along the optical axis.

@@ -22,6 +22,7 @@ enum class PoseIntake : std::uint8_t {
   kNotFinite,       ///< NaN or infinity
   kNotUnit,         ///< the quaternion is not of unit length
 };
+/// How many kinds of PoseIntake there are.
 inline constexpr std::size_t kPoseIntakeKinds = 5;
 
 /// Why a track has no pose for a time.
@@ -36,14 +37,14 @@ enum class PoseMiss : std::uint8_t {
 /// Where a pose stands in the history of its source. Poses of different segments are never
 /// interpolated; those of different epochs do not share a world (see Frame::pose_epoch).
 struct PoseMark {
-  std::uint32_t segment = 0;
-  std::uint32_t epoch = 0;
+  std::uint32_t segment = 0;  ///< between two of them nothing is interpolated
+  std::uint32_t epoch = 0;    ///< of the world that the poses are in
 };
 
 /// What a track answers.
 struct TrackedPose {
-  Transform<World, Body> T_world_body;
-  PoseMark mark;
+  Transform<World, Body> T_world_body;  ///< where the vehicle was
+  PoseMark mark;                        ///< which stretch of the track it belongs to
 };
 
 /// The recent path of the body: interpolates its pose at any time between two poses that it has
@@ -53,12 +54,14 @@ struct TrackedPose {
 /// Memory: at most `capacity` poses; the oldest goes first. Thread safety: none, one owner.
 class PoseTrack {
  public:
+  /// What poses are taken, and how far apart they may be.
   struct Options {
     std::size_t capacity = 4096;                           ///< 20 s of a T265 at 200 Hz
     Nanoseconds max_gap = std::chrono::milliseconds(200);  ///< longest bridge between two poses
   };
 
   PoseTrack() : PoseTrack(Options{}) {}
+  /// Empty.
   explicit PoseTrack(const Options& options);
 
   /// Offers one raw pose; refused ones are counted. Cost: O(1) in order, O(capacity) out of order.
@@ -73,11 +76,14 @@ class PoseTrack {
   /// worth. Misses like find().
   [[nodiscard]] tl::expected<TrackedPose, PoseMiss> nearest(Stamp stamp) const;
 
+  /// Poses kept.
   [[nodiscard]] std::size_t size() const { return poses_.size(); }
+  /// Poses of each kind that were pushed so far.
   [[nodiscard]] std::size_t count(PoseIntake kind) const {
     return counts_[static_cast<std::size_t>(kind)];
   }
 
+  /// Forgets the poses, not the counts.
   void clear() { poses_.clear(); }
 
  private:

@@ -19,11 +19,16 @@ namespace swiftlet {
 class BlockMap : public VoxelLookup<BlockMap> {
  public:
   BlockMap() = default;
+  /// No blocks yet.
   explicit BlockMap(const MapHeader& header) : header_(header) {}
 
+  /// What the map says of itself.
   [[nodiscard]] const MapHeader& header() const { return header_; }
+  /// Edge of a cell [m]
   [[nodiscard]] double voxel_m() const { return header_.voxel_m; }
+  /// How its cells are read.
   [[nodiscard]] const LogOddsScale& scale() const { return header_.scale; }
+  /// Blocks that it holds.
   [[nodiscard]] std::size_t block_count() const { return blocks_.size(); }
   /// Holds all blocks; larger than need be after erase(). Of size 0 if there never was one. Extents
   /// that do not fit an int32 are cut at its end.
@@ -39,9 +44,11 @@ class BlockMap : public VoxelLookup<BlockMap> {
   /// Of all blocks, by z, then y, then x: the order of map files.
   [[nodiscard]] std::vector<BlockIndex> sorted_blocks() const;
 
+  /// Changes what the map says of itself; the blocks stay.
   void set_header(const MapHeader& header) { header_ = header; }
   /// The block for writing, made of unknown cells if there was none.
   [[nodiscard]] VoxelBlock& writable(const BlockIndex& index);
+  /// Sets a whole block.
   void put(const BlockIndex& index, const VoxelBlock& block) { writable(index) = block; }
   /// Sets one cell.
   void set(const VoxelIndex& voxel, LogOdds cell) {

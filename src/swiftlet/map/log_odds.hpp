@@ -11,10 +11,9 @@ namespace swiftlet {
 /// Belief about one cell: log-odds in steps around 127, saturating. The values are on disk and on
 /// the wire.
 using QuantizedLogOdds = std::uint8_t;
-inline constexpr QuantizedLogOdds kFreeCell = 0;
-inline constexpr QuantizedLogOdds kUnknownCell =
-    127;  ///< L = 0: prior, or evidence that cancels out
-inline constexpr QuantizedLogOdds kOccupiedCell = 255;
+inline constexpr QuantizedLogOdds kFreeCell = 0;        ///< as free as can be told
+inline constexpr QuantizedLogOdds kUnknownCell = 127;   ///< L = 0: prior, or evidence that cancels out
+inline constexpr QuantizedLogOdds kOccupiedCell = 255;  ///< as occupied as can be told
 
 /// Adds whole steps; saturates at both ends.
 [[nodiscard]] constexpr QuantizedLogOdds add_steps(QuantizedLogOdds cell, std::int32_t steps) {
@@ -30,6 +29,7 @@ struct OccupancyThresholds {
   int free_below = 107;     ///< 20 steps below unknown: one whole free observation (method 6)
   int occupied_from = 180;  ///< the thesis's value
 
+  /// What a cell claims.
   [[nodiscard]] constexpr Occupancy classify(QuantizedLogOdds cell) const {
     if (cell >= occupied_from) return Occupancy::kOccupied;
     return cell < free_below ? Occupancy::kFree : Occupancy::kUnknown;

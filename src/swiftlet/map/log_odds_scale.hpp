@@ -11,9 +11,10 @@ namespace swiftlet {
 
 /// How the cells of one map are read: what a step is worth, and where belief becomes a claim.
 struct LogOddsScale {
-  OccupancyThresholds thresholds{};
-  double logodds_per_step = 0.04;  ///< natural logarithm of the odds, for one step of a cell
+  OccupancyThresholds thresholds{};  ///< where belief becomes a claim
+  double logodds_per_step = 0.04;    ///< natural logarithm of the odds, for one step of a cell
 
+  /// What a cell claims.
   [[nodiscard]] constexpr Occupancy classify(LogOdds cell) const {
     return thresholds.classify(cell);
   }

@@ -24,10 +24,15 @@ namespace swiftlet {
 /// but publishes nothing newer.
 class MapSnapshot : public VoxelLookup<MapSnapshot> {
  public:
+  /// Edge of a cell [m]
   [[nodiscard]] double voxel_m() const { return slot().voxel_m; }
+  /// The box of blocks that the map covered.
   [[nodiscard]] const BlockWindow& window() const { return slot().window; }
+  /// The same: outside of it nothing is known.
   [[nodiscard]] const BlockWindow& extent() const { return slot().window; }
+  /// How its cells are read.
   [[nodiscard]] const LogOddsScale& scale() const { return slot().scale; }
+  /// Where belief becomes a claim.
   [[nodiscard]] const OccupancyThresholds& thresholds() const { return slot().scale.thresholds; }
   /// Number of frames integrated so far.
   [[nodiscard]] std::uint64_t frame_count() const { return slot().mark.frame_count; }
@@ -60,8 +65,11 @@ class MapSnapshot : public VoxelLookup<MapSnapshot> {
     });
   }
 
+  /// Holds the same state once more. Does not allocate.
   MapSnapshot(const MapSnapshot& other);
+  /// Takes it over; `other` can only be assigned to or destroyed.
   MapSnapshot(MapSnapshot&& other) noexcept;
+  /// Lets go of what it holds, and holds the other's.
   MapSnapshot& operator=(MapSnapshot other) noexcept;
   ~MapSnapshot();
 
@@ -85,7 +93,9 @@ class MapReader {
   /// Never blocks the mapper and is never blocked by it.
   [[nodiscard]] std::optional<MapSnapshot> latest() const;
 
+  /// Takes the other's place.
   MapReader(MapReader&&) noexcept = default;
+  /// Takes the other's place.
   MapReader& operator=(MapReader&& other) noexcept;
   ~MapReader();
 

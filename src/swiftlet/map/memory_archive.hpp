@@ -13,6 +13,7 @@ namespace swiftlet {
 class MemoryArchive final : public BlockArchive {
  public:
   MemoryArchive() = default;
+  /// `header`: of blocks().
   explicit MemoryArchive(const MapHeader& header) : blocks_(header) {}
 
   void evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t) override {

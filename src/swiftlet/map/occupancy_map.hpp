@@ -44,6 +44,7 @@ concept OccupancyMap = requires(const Map& map, const BlockIndex& index, const V
 template <class Map>
 class VoxelLookup {
  public:
+  /// The byte of a cell; kUnknownCell where nothing is known.
   [[nodiscard]] LogOdds log_odds(const VoxelIndex& voxel) const {
     const VoxelBlock* block = self().find(block_of(voxel));
     return block == nullptr ? kUnknownCell : block->cells[offset_in_block(voxel)];
@@ -58,6 +59,7 @@ class VoxelLookup {
   }
 
   // The same of a point.
+  /// The byte of the cell around a point [m, world].
   template <std::convertible_to<Eigen::Vector3d> Point>
   [[nodiscard]] LogOdds log_odds(const Point& p_world) const {
     constexpr double kFirstBeyond = 2147483648.0;  // an index is an int32
@@ -66,10 +68,12 @@ class VoxelLookup {
     if (!(p.array().abs() < kFirstBeyond * voxel_m).all()) return kUnknownCell;
     return log_odds(voxel_containing(p, voxel_m));
   }
+  /// Free, occupied or unknown, at a point [m, world].
   template <std::convertible_to<Eigen::Vector3d> Point>
   [[nodiscard]] Occupancy occupancy(const Point& p_world) const {
     return self().scale().classify(log_odds(p_world));
   }
+  /// 0 to 1, at a point [m, world].
   template <std::convertible_to<Eigen::Vector3d> Point>
   [[nodiscard]] double probability(const Point& p_world) const {
     return self().scale().probability(log_odds(p_world));

@@ -38,17 +38,19 @@ class RollingMap : public VoxelLookup<RollingMap> {
   /// The vehicle stays within this distance of the origin along each axis, so that indices fit.
   static constexpr double kMaxCoordinate_m = 1e6;
 
+  /// Cell size and window.
   struct Options {
-    double voxel_m = 0.2;
-    Eigen::Vector3d size_m{20.0, 20.0, 6.0};
+    double voxel_m = 0.2;  ///< edge of a cell
+    Eigen::Vector3d size_m{20.0, 20.0,
+                           6.0};  ///< edges of the box that is covered around the vehicle
     Eigen::Vector3d trigger_m{1.0, 1.0, 1.0};  ///< half extents of the trigger box
   };
 
   /// What a move of the window did.
   struct Shift {
-    bool moved = false;
-    std::size_t blocks_evicted = 0;
-    std::size_t blocks_restored = 0;
+    bool moved = false;               ///< whether the window moved
+    std::size_t blocks_evicted = 0;   ///< that left the window
+    std::size_t blocks_restored = 0;  ///< that entered it and were known
   };
 
   /// `scale`: how its readers are to understand the cells; the map itself only stores them.
@@ -57,9 +59,13 @@ class RollingMap : public VoxelLookup<RollingMap> {
   [[nodiscard]] static Expected<RollingMap> create(const Options& options,
                                                    const LogOddsScale& scale = {});
 
+  /// Edge of a cell [m]
   [[nodiscard]] double voxel_m() const { return options_.voxel_m; }
+  /// How its cells are read.
   [[nodiscard]] const LogOddsScale& scale() const { return scale_; }
+  /// The box of blocks that the map covers now.
   [[nodiscard]] const BlockWindow& window() const { return directory_.window(); }
+  /// The same: outside of it nothing is known.
   [[nodiscard]] const BlockWindow& extent() const { return window(); }
 
   /// Keeps the vehicle, or a place ahead of it, in the middle: when it has left the trigger box

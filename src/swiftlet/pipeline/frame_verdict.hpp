@@ -22,6 +22,7 @@ enum class FrameVerdict : std::uint8_t {
   kOtherWorld,      ///< its poses and the map share no world (map.on_new_world)
   kNoise,           ///< hardly two neighbours agree: no surface looks so
 };
+/// For people and machines, by FrameVerdict.
 inline constexpr std::array<std::string_view, 10> kFrameVerdictNames{
     "integrated", "no_readings", "size_mismatch", "pose_out_of_range", "mostly_empty",
     "saturated",  "smeared",     "frozen",        "other_world",       "noise"};

@@ -22,14 +22,14 @@ namespace swiftlet {
 
 /// What one call of integrate() did.
 struct MapUpdate {
-  FrameVerdict verdict = FrameVerdict::kIntegrated;
-  RollingMap::Shift shift;
+  FrameVerdict verdict = FrameVerdict::kIntegrated;  ///< what became of the frame
+  RollingMap::Shift shift;                           ///< what the window did
   /// Where the middle of the window should be: at the camera, or ahead of it (map.lookahead_s).
   Eigen::Vector3d window_goal = Eigen::Vector3d::Zero();
-  IntegrationTally tally;
+  IntegrationTally tally;     ///< what was summed, and into how much
   std::size_t decayed = 0;    ///< cells that lost belief because nothing is seen where they are
   bool was_published = true;  ///< false: readers hold every snapshot slot, so they see an older map
-  StageTimes times;
+  StageTimes times;           ///< of each stage
 };
 
 /// Depth frames with poses in, occupancy map out.
@@ -54,9 +54,11 @@ class Mapper {
   /// follow. REQUIRES: the archive, if there is one, gives back no more blocks of the old world.
   void begin_world(std::uint32_t pose_epoch);
 
+  /// As given.
   [[nodiscard]] const MapperConfig& config() const { return config_; }
   /// For the mapping thread.
   [[nodiscard]] const RollingMap& map() const { return map_; }
+  /// For the mapping thread.
   [[nodiscard]] RollingMap& map() { return map_; }
   /// For another thread: follows the map while it grows.
   [[nodiscard]] MapReader reader() const { return map_.reader(); }

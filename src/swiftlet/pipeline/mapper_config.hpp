@@ -26,22 +26,26 @@ inline constexpr std::string_view kThesisModel = "inverse_sensor_model";
 /// knows nothing: it is refused until the owner calls Mapper::begin_world(); or the map is cleared
 /// and begun anew with it; or it is fused into the map as if nothing had happened.
 inline constexpr std::string_view kRefuseNewWorld = "refuse";
+/// The map is cleared and begun anew with the frame.
 inline constexpr std::string_view kClearForNewWorld = "clear";
+/// The frame is fused as if nothing had happened.
 inline constexpr std::string_view kKeepInNewWorld = "keep";
+/// Whether it is one of these three.
 [[nodiscard]] constexpr bool is_new_world_rule(std::string_view name) {
   return name == kRefuseNewWorld || name == kClearForNewWorld || name == kKeepInNewWorld;
 }
 
 /// Every parameter of the mapper, with its default.
 struct MapperConfig {
-  RollingMap::Options map;
-  std::string on_new_world{kRefuseNewWorld};
-  WindowOptions window;
-  QualityLimits quality;
-  ConditionOptions depth;
-  SensorOptions sensor;
-  IntegrateOptions integrate;
-  OccupancyThresholds occupancy;
+  RollingMap::Options map;  ///< cell size, window and trigger box
+  std::string on_new_world{
+      kRefuseNewWorld};           ///< kRefuseNewWorld, kClearForNewWorld or kKeepInNewWorld
+  WindowOptions window;           ///< where the window lies around the vehicle
+  QualityLimits quality;          ///< which images are not worth a fusion
+  ConditionOptions depth;         ///< the steps, and their parameters
+  SensorOptions sensor;           ///< geometry and noise of the camera
+  IntegrateOptions integrate;     ///< how a frame is fused
+  OccupancyThresholds occupancy;  ///< where belief becomes a claim
 
   /// How the cells of its map are read.
   [[nodiscard]] LogOddsScale scale() const { return {occupancy, integrate.logodds_per_step}; }

@@ -11,13 +11,15 @@ namespace swiftlet {
 
 /// Cells by state.
 struct CellCounts {
-  std::size_t free = 0;
-  std::size_t unknown = 0;
-  std::size_t occupied = 0;
+  std::size_t free = 0;      ///< cells below the lower threshold
+  std::size_t unknown = 0;   ///< cells between the two
+  std::size_t occupied = 0;  ///< cells from the upper threshold on
 
+  /// One cell more.
   void add(Occupancy state) {
     ++(state == Occupancy::kFree ? free : state == Occupancy::kUnknown ? unknown : occupied);
   }
+  /// The cells of a block more.
   void add(const VoxelBlock& block, const OccupancyThresholds& thresholds);
   friend bool operator==(const CellCounts&, const CellCounts&) = default;
 };
@@ -31,6 +33,7 @@ template <OccupancyMap Map>
       [&](const BlockIndex&, const VoxelBlock& block) { counts.add(block, thresholds); });
   return counts;
 }
+/// By the map's own thresholds.
 template <OccupancyMap Map>
 [[nodiscard]] CellCounts count_cells(const Map& map) {
   return count_cells(map, OccupancyThresholds(map.scale().thresholds));

@@ -15,6 +15,7 @@ struct MapSummary {
   CellCounts cells;                ///< of the blocks there are
   std::optional<VoxelBox> bounds;  ///< of the free and occupied cells; none: there are none
 
+  /// The cells of a block more.
   void add(const BlockIndex& index, const VoxelBlock& block, const OccupancyThresholds& thresholds);
 };
 

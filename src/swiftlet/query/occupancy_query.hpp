@@ -16,6 +16,7 @@ template <OccupancyMap Map>
                                      const OccupancyThresholds& thresholds) {
   return thresholds.classify(map.log_odds(p_world));
 }
+/// By the map's own thresholds.
 template <OccupancyMap Map>
 [[nodiscard]] Occupancy occupancy_at(const Map& map, const Eigen::Vector3d& p_world) {
   return map.occupancy(p_world);

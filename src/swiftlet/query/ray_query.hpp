@@ -58,6 +58,7 @@ template <OccupancyMap Map>
   if (!ends_outside || !unknown_stops) return clear;
   return {Occupancy::kUnknown, clip.end * length_m, walk.cell()};
 }
+/// By the map's own thresholds.
 template <OccupancyMap Map>
 [[nodiscard]] RayHit cast_ray(const Map& map, const Eigen::Vector3d& from_world,
                               const Eigen::Vector3d& to_world,

@@ -15,12 +15,13 @@ namespace swiftlet {
 
 /// What a region holds.
 struct RegionCells {
-  CellCounts counts;
+  CellCounts counts;      ///< by state
   bool is_inside = true;  ///< false: a part of it lies outside the window, where nothing is counted
   /// The cell that is not free and nearest, by its centre, to the origin of the region's frame (the
   /// tip of a cone).
   std::optional<VoxelIndex> first_not_free;
 
+  /// Whether all of it is known to be free.
   [[nodiscard]] bool is_free() const {
     return is_inside && counts.unknown == 0 && counts.occupied == 0;
   }

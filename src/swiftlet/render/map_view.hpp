@@ -12,6 +12,7 @@
 
 namespace swiftlet::render {
 
+/// How a map is drawn.
 struct ViewOptions {
   std::optional<double> z_m;  ///< slice: its height; others: what lies above is cut away [m, world]
   int cell_px = 0;            ///< edge of a cell in the picture; 0 for what fits 1600 pixels

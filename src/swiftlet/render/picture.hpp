@@ -14,8 +14,11 @@
 
 namespace swiftlet::render {
 
+/// Red, green and blue, 0 to 255.
 struct Colour {
-  std::uint8_t r = 255, g = 255, b = 255;
+  std::uint8_t r = 255;  ///< red
+  std::uint8_t g = 255;  ///< green
+  std::uint8_t b = 255;  ///< blue
   friend bool operator==(const Colour&, const Colour&) = default;
 };
 

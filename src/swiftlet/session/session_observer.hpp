@@ -13,6 +13,7 @@ class SessionObserver {
   virtual ~SessionObserver() = default;
   /// A new map begins; frames until the next call belong to it.
   virtual void map_begun(const Mapper& mapper) = 0;
+  /// After each frame, whatever became of it.
   virtual void frame_done(const Frame& frame, const MapUpdate& update, const Mapper& mapper) = 0;
   /// A block leaves the window; see BlockArchive::evict().
   virtual void block_left(const BlockIndex& index, const VoxelBlock& block,

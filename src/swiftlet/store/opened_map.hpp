@@ -15,8 +15,9 @@ namespace swiftlet {
 /// A map that a command reads; an OctoMap is first laid out into one of ours, which is gone with
 /// this object.
 struct OpenedMap {
-  std::optional<PrivateFolder> folder;  // outlives the map in it
-  SavedMap file;
+  /// Of an OctoMap that was laid out; outlives the map in it.
+  std::optional<PrivateFolder> folder;
+  SavedMap file;                           ///< the map
   std::optional<SalvageReport> salvage{};  ///< if it was asked for
 };
 

@@ -14,15 +14,15 @@ namespace swiftlet::eval {
 
 /// One wall, as it is read and as it is after correction.
 struct CalibratedWall {
-  std::string source;
-  double distance_m = 0.0;
+  std::string source;                  ///< address of the recording
+  double distance_m = 0.0;             ///< mean distance of the wall
   DistortionFit self;                  ///< fitted to this wall
   std::optional<DepthDistortion> pre;  ///< fitted to another one, before
 
-  WallImages raw;
+  WallImages raw;  ///< what was read
   /// worst_error() of the images raw, after `self`, and after `pre`.
-  double raw_error = 0.0, self_error = 0.0;
-  std::optional<double> pre_error{};
+  double raw_error = 0.0, self_error = 0.0;  ///< [m], before and after the fit's own correction
+  std::optional<double> pre_error{};         ///< with a correction that was given
 };
 
 /// Reads a wall, fits it and judges it. Errors: those of the source and of fit_distortion().

@@ -17,32 +17,37 @@ namespace swiftlet::eval {
 
 /// The frames that share a setting.
 struct FillMean {
-  std::size_t frames = 0;
-  double valid = 0.0, of_image = 0.0, of_middle = 0.0;  // sums
+  std::size_t frames = 0;  ///< images in it
+  double valid = 0.0;      ///< sum over the images, see mean(); as in Fill
+  double of_image = 0.0;   ///< likewise
+  double of_middle = 0.0;  ///< likewise
 
+  /// Adds the fill of one image.
   void add(const Fill& fill) {
     ++frames;
     valid += static_cast<double>(fill.valid);
     of_image += fill.of_image;
     of_middle += fill.of_middle;
   }
+  /// A sum over the images as their mean. REQUIRES: frames > 0.
   [[nodiscard]] double mean(double sum) const { return sum / static_cast<double>(frames); }
 };
 
 /// Fill against one thing that was changed.
 struct FillSweep {
-  const char* name;   ///< of its files and in JSON
-  const char* title;  ///< of its column, with the unit
-  std::map<double, FillMean> by{};
+  const char* name;                 ///< of its files and in JSON
+  const char* title;                ///< of its column, with the unit
+  std::map<double, FillMean> by{};  ///< means by the value that was set
 };
 
 /// Fill against each thing that a recording tells.
 struct FillSweeps {
-  std::size_t frames = 0;
-  FillSweep tilt{"tilt_deg", "tilt [deg]"};
-  FillSweep exposure{"exposure_ms", "exposure [ms]"};
-  FillSweep laser{"laser_mw", "laser power [mW]"};
+  std::size_t frames = 0;                              ///< images that were read
+  FillSweep tilt{"tilt_deg", "tilt [deg]"};            ///< by the camera's pitch
+  FillSweep exposure{"exposure_ms", "exposure [ms]"};  ///< by its exposure time
+  FillSweep laser{"laser_mw", "laser power [mW]"};     ///< by the power of its projector
 
+  /// Those of which more than nothing is known.
   [[nodiscard]] std::vector<const FillSweep*> known() const {
     std::vector<const FillSweep*> sweeps;
     for (const FillSweep* sweep : {&tilt, &exposure, &laser}) {

@@ -15,10 +15,10 @@ namespace swiftlet::eval {
 
 /// The walls of all frames, the camera that saw them, and its disparity error.
 struct NoiseFit {
-  std::vector<WallNoise> walls{};
-  double focal_px = 0.0;
-  double baseline_m = 0.0;
-  double subpixel_px = 0.0;  ///< s of RMS = z^2 s / (f B)
+  std::vector<WallNoise> walls{};  ///< one a distance
+  double focal_px = 0.0;           ///< of the camera
+  double baseline_m = 0.0;         ///< of the stereo pair [m]
+  double subpixel_px = 0.0;        ///< s of RMS = z^2 s / (f B)
 };
 
 /// How readings scatter about the walls of some recordings.

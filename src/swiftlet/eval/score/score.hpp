@@ -17,13 +17,13 @@ namespace swiftlet::eval {
 
 /// A map at the end of a flight, and what the flight was.
 struct Judged {
-  const Truth& truth;
+  const Truth& truth;    ///< what there is
   const Claims& claims;  ///< of the map, over truth.cells().box()
   /// Cells that were ever called occupied at a look, once a second of the flight.
   const CellGrid<std::uint8_t>& ever_occupied;
   /// The cells that another map knows, to compare over the same; null if there is no such map.
   const Claims* reference = nullptr;
-  double flight_s = 0.0;
+  double flight_s = 0.0;                 ///< how long the flight was
   std::span<const ThinCell> thin{};      ///< cells of thin objects, with how near they were seen
   const Reactions* reactions = nullptr;  ///< null where nothing moves
 };
@@ -33,25 +33,27 @@ enum class Unit : std::uint8_t { kShare, kMetres, kDegrees, kCount, kPerMinute, 
 
 /// One number that says how right a map is.
 struct ScoreValue {
-  std::string name;
-  double value = 0.0;
-  Unit unit = Unit::kShare;
-  bool higher_is_better = true;
-  std::size_t of = 0;  ///< how many things it was counted over
+  std::string name;              ///< in `swiftlet score`
+  double value = 0.0;            ///< in its unit
+  Unit unit = Unit::kShare;      ///< of `value`
+  bool higher_is_better = true;  ///< false: less is better
+  std::size_t of = 0;            ///< how many things it was counted over
 };
 
 /// A cell that a planner must hear of one by one.
 struct Finding {
-  VoxelIndex cell;
+  VoxelIndex cell;        ///< which one
   std::string what;       ///< what is there
   bool is_warned = true;  ///< a neighbour is called occupied, so that a margin of one cell saves
 };
 
+/// What one score tells of a map.
 struct ScoreResult {
   std::vector<ScoreValue> values;  ///< empty if the flight has nothing to judge by
-  std::vector<Finding> findings;
+  std::vector<Finding> findings;   ///< solid cells that are called free
 };
 
+/// A score is one file and one line in scores.cpp.
 using ComputeScore = ScoreResult (*)(const Judged& judged);
 
 /// All scores there are.

@@ -32,6 +32,7 @@ enum class DistanceStatus : std::uint8_t {
   kOutside,      ///< not in the box of the field: the distance is 0
 };
 
+/// What the field covers, and what counts as an obstacle.
 struct DistanceFieldOptions {
   double max_distance_m = 2.0;  ///< the reach: greater distances are this one; <= 255 cells
   bool occupied = true;         ///< answer for Obstacles::kOccupied
@@ -41,17 +42,19 @@ struct DistanceFieldOptions {
   /// The box around the middle of the window, or around the place that update() is told, rounded up
   /// to whole blocks and cut to the window; 0: as long as the window.
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
-  OccupancyThresholds thresholds{};
+  OccupancyThresholds thresholds{};  ///< where belief becomes a claim
   int threads = 1;  ///< that update() shares its work with; the bits are the same with any number
 };
 
+/// An answer of distance_at().
 struct DistanceAnswer {
-  double distance_m;
-  DistanceStatus status;
+  double distance_m;      ///< to the nearest obstacle, see status
+  DistanceStatus status;  ///< what the number means
 };
 
+/// An answer with a direction.
 struct DistanceSample {
-  double distance_m;
+  double distance_m;         ///< to the nearest obstacle
   Eigen::Vector3d gradient;  ///< of distance_m by place, no unit, world frame: away from obstacles
   DistanceStatus status;     ///< of the voxel that the place is in
 };
@@ -87,10 +90,13 @@ class DistanceField {
   /// whole blocks, and not before the place is three quarters of one off.
   void update(const MapSnapshot& map, const Eigen::Vector3d& around_world);
 
+  /// Edge of a cell [m]
   [[nodiscard]] double voxel_m() const { return voxel_m_; }
+  /// As given.
   [[nodiscard]] const DistanceFieldOptions& options() const { return options_; }
   /// MapSnapshot::frame_count() of the last update(); 0 before.
   [[nodiscard]] std::uint64_t frame_count() const { return frame_count_; }
+  /// The box of blocks that it covers now.
   [[nodiscard]] const BlockWindow& box() const { return grid_.box(); }
   /// false before the first update(), too.
   [[nodiscard]] bool contains(const VoxelIndex& voxel) const {
@@ -121,6 +127,7 @@ class DistanceField {
   [[nodiscard]] std::optional<int> squared_voxels(const VoxelIndex& voxel,
                                                   Obstacles obstacles) const;
 
+  /// Of all that it holds [bytes]
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:

@@ -18,11 +18,16 @@ class DistanceFieldStore;
 /// Thread safety: any thread. While every slot of the thread is held, it publishes nothing newer.
 class HeldDistanceField {
  public:
+  /// The field.
   [[nodiscard]] const DistanceField& operator*() const { return *field_; }
+  /// The field.
   [[nodiscard]] const DistanceField* operator->() const { return field_; }
 
+  /// Holds the same field once more.
   HeldDistanceField(const HeldDistanceField& other);
+  /// Takes it over; `other` can only be assigned to or destroyed.
   HeldDistanceField(HeldDistanceField&& other) noexcept;
+  /// Lets go of what it holds, and holds the other's.
   HeldDistanceField& operator=(HeldDistanceField other) noexcept;
   ~HeldDistanceField();
 
@@ -46,7 +51,7 @@ class HeldDistanceField {
 /// a mapper does not wait to tell anybody.
 class DistanceFieldThread {
  public:
-  static constexpr int kFields = 3;
+  static constexpr int kFields = 3;  ///< one newest, one in work, one held by a slow reader
 
   /// `reader`: of a map of these cells and of a window of this size (RollingMap::voxel_m(),
   /// window()). Errors: as DistanceField::create().
@@ -58,13 +63,17 @@ class DistanceFieldThread {
   /// the first. Any thread; never blocks.
   [[nodiscard]] std::optional<HeldDistanceField> latest() const;
 
+  /// What the thread did so far.
   struct Tally {
     std::uint64_t published = 0;  ///< fields that readers could see
     std::uint64_t skipped = 0;    ///< newer maps that found every field held by readers
   };
+  /// From any thread.
   [[nodiscard]] Tally tally() const;
 
+  /// Takes the other's place.
   DistanceFieldThread(DistanceFieldThread&& other) noexcept;
+  /// Takes the other's place.
   DistanceFieldThread& operator=(DistanceFieldThread&& other) noexcept;
   /// Ends the thread; held fields live on.
   ~DistanceFieldThread();

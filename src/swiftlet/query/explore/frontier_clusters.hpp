@@ -14,22 +14,25 @@ namespace swiftlet {
 
 /// A piece of the frontier that can be looked at as one.
 struct FrontierCluster {
-  std::size_t first_cell = 0;  ///< its cells in FrontierClusters::cells
-  std::size_t cell_count = 0;
+  std::size_t first_cell = 0;                            ///< its cells in FrontierClusters::cells
+  std::size_t cell_count = 0;                            ///< how many they are
   Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero();  ///< [world]
   /// Mean direction into the unknown, of length 1; 0 where the directions cancel out. [world]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
 
+/// All pieces of a frontier.
 struct FrontierClusters {
-  std::vector<VoxelIndex> cells;  ///< cluster by cluster
-  std::vector<FrontierCluster> clusters;
+  std::vector<VoxelIndex> cells;          ///< cluster by cluster
+  std::vector<FrontierCluster> clusters;  ///< in no order
 
+  /// The cells of one cluster. REQUIRES: it is one of `clusters`.
   [[nodiscard]] std::span<const VoxelIndex> cells_of(const FrontierCluster& cluster) const {
     return std::span(cells).subspan(cluster.first_cell, cluster.cell_count);
   }
 };
 
+/// How a frontier is cut into pieces.
 struct ClusterOptions {
   double max_extent_m = 2.0;  ///< a cluster's box has no longer edge, so that one view may see it
   std::size_t min_cells = 4;  ///< smaller ones are left out: holes in walls, noise

@@ -25,27 +25,34 @@ namespace swiftlet {
 /// map, or one of another size.
 class FrontierMap {
  public:
+  /// Empty.
   explicit FrontierMap(const OccupancyThresholds& thresholds = {}) : thresholds_(thresholds) {}
 
   /// What an update did.
   struct Work {
     std::size_t blocks_changed = 0;  ///< blocks with a cell that became free or unknown, or left it
-    std::size_t blocks_searched = 0;
+    std::size_t blocks_searched = 0;  ///< that had changed, or lie beside such
   };
   /// Brings the frontier up to a newer snapshot. A map that was begun anew is noticed by another
   /// size or a lower frame count; call clear() if it may have neither.
   Work update(const MapSnapshot& map);
+  /// Forgets everything.
   void clear() { *this = FrontierMap(thresholds_); }
 
+  /// Where belief becomes a claim.
   [[nodiscard]] const OccupancyThresholds& thresholds() const { return thresholds_; }
+  /// Of the newest snapshot.
   [[nodiscard]] const BlockWindow& window() const { return directory_.window(); }
+  /// Edge of a cell of the newest snapshot [m]
   [[nodiscard]] double voxel_m() const { return voxel_m_; }
+  /// Cells of the frontier.
   [[nodiscard]] std::size_t cell_count() const { return cell_count_; }
 
   /// The frontier's cells in a block; none outside the window.
   [[nodiscard]] BlockBits cells_of(const BlockIndex& block) const {
     return is_within(block) ? entries_[directory_.entry_of(block)].frontier : BlockBits{};
   }
+  /// Whether nothing is known of a cell.
   [[nodiscard]] bool is_unknown(const VoxelIndex& v) const {
     const BlockIndex block = block_of(v);
     if (!is_within(block)) return false;

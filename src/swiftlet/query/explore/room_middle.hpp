@@ -12,13 +12,15 @@
 
 namespace swiftlet {
 
+/// What counts as a wall, and what as a door.
 struct RoomOptions {
-  OccupancyThresholds thresholds{};
+  OccupancyThresholds thresholds{};             ///< where belief becomes a claim
   UnknownSpace unknown = UnknownSpace::kStops;  ///< kStops: unknown cells bound the room, too
   double half_height_m = 0.2;                   ///< the slab at flying height reaches up and down
   double door_m = 1.0;                          ///< what is narrower than this parts two rooms
 };
 
+/// Where there is most room around.
 struct RoomMiddle {
   Eigen::Vector3d p_world = Eigen::Vector3d::Zero();  ///< at the height of the vehicle
   double clearance_m = 0.0;                           ///< no obstacle in the slab is nearer to it

@@ -12,10 +12,10 @@ namespace swiftlet {
 
 /// What a planner knows of a camera: how wide it sees, how far, and how it is mounted.
 struct ViewCamera {
-  double hfov_rad = 1.5;
-  double vfov_rad = 1.0;
+  double hfov_rad = 1.5;     ///< from the left edge of the image to the right one
+  double vfov_rad = 1.0;     ///< from the upper edge to the lower one
   double max_range_m = 5.0;  ///< along the optical axis, as depth is measured
-  Transform<Body, Camera> T_body_camera = forward_looking_camera();
+  Transform<Body, Camera> T_body_camera = forward_looking_camera();  ///< where it is mounted
 
   /// Angles above 0 and below 170 degrees, a range that is finite and above 0.
   [[nodiscard]] bool is_sound() const {

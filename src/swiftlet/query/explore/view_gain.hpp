@@ -21,6 +21,7 @@ namespace swiftlet {
 /// Memory: a bit a cell of the window, kept from question to question. Thread safety: one owner.
 class ViewGain {
  public:
+  /// `thresholds`: what counts as matter and as unknown.
   explicit ViewGain(const OccupancyThresholds& thresholds = {}) : thresholds_(thresholds) {}
 
   /// Unknown cells in sight. Errors: kUsage if the camera is not sound or the pose not finite.

@@ -16,9 +16,9 @@ namespace swiftlet {
 
 /// Where to look from, level, and how much of it is seen there.
 struct ViewPose {
-  Transform<World, Body> T_world_body;
-  std::size_t cells_seen = 0;
-  std::size_t cells_tried = 0;  ///< of a large cluster, some that are spread evenly over it
+  Transform<World, Body> T_world_body;  ///< level, where the body has room
+  std::size_t cells_seen = 0;           ///< of those that were tried
+  std::size_t cells_tried = 0;          ///< of a large cluster, some that are spread evenly over it
 };
 
 /// How many of these cells the camera sees from a pose: in the image, within range, and with only

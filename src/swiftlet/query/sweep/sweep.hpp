@@ -19,12 +19,13 @@ namespace swiftlet {
 
 /// How a sweep is meant.
 struct SweepPolicy {
-  OccupancyThresholds thresholds{};
+  OccupancyThresholds thresholds{};             ///< where belief becomes a claim
   UnknownSpace unknown = UnknownSpace::kStops;  ///< kPasses: only matter counts
   double margin_m = 0.0;           ///< the body is taken to be larger by this on every side
   double clearance_reach_m = 0.0;  ///< look for the least clearance up to here; 0: do not look
 };
 
+/// What is in the way.
 enum class SweepState : std::uint8_t {
   kClear,    ///< every cell that the body touches is free
   kUnknown,  ///< it touches unknown cells, but no occupied one
@@ -33,8 +34,8 @@ enum class SweepState : std::uint8_t {
 
 /// Where the body first touches a cell.
 struct SweepContact {
-  Occupancy state = Occupancy::kUnknown;  ///< of the cell
-  VoxelIndex voxel;
+  Occupancy state = Occupancy::kUnknown;              ///< of the cell
+  VoxelIndex voxel;                                   ///< the cell that is touched
   Eigen::Vector3d p_world = Eigen::Vector3d::Zero();  ///< centre of the cell [m]
   double path_m = 0.0;     ///< the origin of the body is clear up to here, along the path
   std::size_t leg = 0;     ///< between poses `leg` and `leg` + 1,
@@ -50,12 +51,13 @@ struct SweepClearance {
   double path_m = 0.0;              ///< and where on the path
 };
 
+/// What a sweep found.
 struct SweepAnswer {
-  SweepState state = SweepState::kClear;
-  std::optional<SweepContact> unknown;   ///< the first unknown cell, if unknown space stops
-  std::optional<SweepContact> occupied;  ///< the first occupied cell
-  double clear_m = 0.0;  ///< the path is clear up to here: its whole length, or the first contact
-  double length_m = 0.0;
+  SweepState state = SweepState::kClear;  ///< whether the way is free
+  std::optional<SweepContact> unknown;    ///< the first unknown cell, if unknown space stops
+  std::optional<SweepContact> occupied;   ///< the first occupied cell
+  double clear_m = 0.0;   ///< the path is clear up to here: its whole length, or the first contact
+  double length_m = 0.0;  ///< of the path, up to there
   std::optional<SweepClearance> clearance;  ///< if a reach was given
 };
 

@@ -15,8 +15,8 @@ namespace swiftlet {
 
 /// Where the body is to be, and when.
 struct TimedPose {
-  Stamp stamp;
-  Transform<World, Body> T_world_body;
+  Stamp stamp;                          ///< when the body is there
+  Transform<World, Body> T_world_body;  ///< where
 };
 
 /// A path for sweep(): points without turning, or poses with times. Looks at the caller's memory,
@@ -32,9 +32,11 @@ class SweepPath {
   /// Errors: as above, and if a stamp is before the one before it.
   [[nodiscard]] static Expected<SweepPath> of(std::span<const TimedPose> poses);
 
+  /// Poses.
   [[nodiscard]] std::size_t size() const {
     return points_.empty() ? poses_.size() : points_.size();
   }
+  /// The pose of that number. REQUIRES: i < size().
   [[nodiscard]] Transform<World, Body> pose(std::size_t i) const {
     return points_.empty()
                ? poses_[i].T_world_body

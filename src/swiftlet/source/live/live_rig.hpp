@@ -27,28 +27,39 @@ namespace swiftlet {
 /// Memory: that of the Rig, `queue.capacity` frames, and 100 events that nobody has taken.
 class LiveRig final : public FrameSource, public LiveSink {
  public:
+  /// The rig, and how long it waits.
   struct Options {
-    RigOptions rig;
+    RigOptions rig;     ///< cameras, mounts and gates
     QueuePolicy queue;  ///< its speed does not matter here
     /// Silence of the cameras after which next() gives up: time to plug a cable in again.
     Nanoseconds patience = std::chrono::seconds(10);
   };
+  /// Nothing is connected yet.
   LiveRig(SourceInfo info, const Options& options);
 
+  /// From the tracker's thread.
   void push(const PoseSample& pose) override;
+  /// From a camera's thread.
   void push(DepthFrame depth) override;
+  /// From the thread that looks after the devices.
   void note(RigEvent event) override;
+  /// The tracker has been started again.
   void start_poses_anew() override;
+  /// When the camera last delivered; nullopt: never.
   [[nodiscard]] std::optional<HostTime> last_image(std::size_t camera) const override;
+  /// When the tracker last delivered; nullopt: never.
   [[nodiscard]] std::optional<HostTime> last_pose() const override;
   /// No instrument will deliver again.
   void close();
 
   /// Waits for the next frame. Errors: kIo if no image has come for `patience`.
   [[nodiscard]] Expected<std::optional<Frame>> next() override;
+  /// What is known before the first frame.
   [[nodiscard]] const SourceInfo& info() const override { return info_; }
+  /// What was lost so far.
   [[nodiscard]] const FrameTally& tally() const override { return tally_; }
   [[nodiscard]] const RigFacts* facts() const override { return &facts_; }
+  /// Cameras, mounts and gates.
   [[nodiscard]] const RigOptions* rig() const override { return &options_.rig; }
   void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
   [[nodiscard]] std::vector<RigEvent> take_events() override;

@@ -18,11 +18,12 @@
 
 namespace swiftlet {
 
+/// Cameras that a rig can have.
 inline constexpr std::size_t kMaxCameras = 8;
 
 /// One depth camera of a rig.
 struct RigCamera {
-  std::string name = "depth";
+  std::string name = "depth";               ///< shown to people
   Transform<Body, Camera> T_body_camera{};  ///< the mount (extrinsics)
   /// A pose that belongs to an image of time t is stamped t + pose_offset.
   Nanoseconds pose_offset{0};
@@ -41,10 +42,10 @@ enum class PosePairing : std::uint8_t {
 
 /// What a rig consists of and what it may believe.
 struct RigOptions {
-  std::vector<RigCamera> cameras{RigCamera{}};  ///< 1 .. kMaxCameras
-  TrustedPoses::Options poses{};
-  PosePairing pairing = PosePairing::kInterpolate;
-  std::optional<BodyBox> body_box{};
+  std::vector<RigCamera> cameras{RigCamera{}};      ///< 1 .. kMaxCameras
+  TrustedPoses::Options poses{};                    ///< which poses are trusted
+  PosePairing pairing = PosePairing::kInterpolate;  ///< how an image gets its pose
+  std::optional<BodyBox> body_box{};                ///< what of the vehicle its cameras see
   std::size_t max_waiting = 8;  ///< depth images a camera that may wait for their pose
   /// No image arrives after one that is stamped this much later.
   Nanoseconds reorder_window = std::chrono::milliseconds(40);
@@ -55,9 +56,10 @@ struct RigOptions {
 
 /// What the gates before a rig have seen of its stamps (RigGates).
 struct StampTally {
-  std::size_t images_refused = 0;
-  std::size_t poses_refused = 0;
-  ClockSteps pose_clock{}, image_clock{};
+  std::size_t images_refused = 0;  ///< images whose stamps could not be used
+  std::size_t poses_refused = 0;   ///< poses whose stamps could not be used
+  ClockSteps pose_clock{};         ///< times that the clock of the poses was set
+  ClockSteps image_clock{};        ///< times that a clock of the images was set
 };
 
 /// Joins the depth images of one to eight cameras with a stream of poses into posed frames: the one
@@ -71,11 +73,12 @@ struct StampTally {
 /// is lost (counted). Thread safety: none, one owner.
 class Rig {
  public:
-  using Options = RigOptions;
+  using Options = RigOptions;  ///< cameras, mounts and gates
 
   /// REQUIRES: 1 to kMaxCameras cameras.
   explicit Rig(const Options& options);
 
+  /// A pose of the tracker, in the order of their stamps.
   void push(const PoseSample& pose);
   /// The pose source was switched off and on: a new epoch begins with its next pose.
   void start_poses_anew() { poses_.start_anew(); }
@@ -83,7 +86,9 @@ class Rig {
   /// What waits for a pose of the time before is lost (counted), what was mapped is not mapped
   /// again. Frames are later than those before all the same: their stamps go on.
   void restart_pose_clock(Stamp first);
+  /// The clock of a camera begins anew with this stamp.
   void restart_camera_clock(std::size_t camera, Stamp first);
+  /// Counts what was refused before it came here.
   void note_stamps(const StampTally& stamps);
   /// The images of one camera come in time order; one that does not is lost (counted).
   /// REQUIRES: depth.camera is one of the rig's.
@@ -96,9 +101,13 @@ class Rig {
   /// The oldest depth image whose pose is known by now; nullopt if none is ready.
   [[nodiscard]] std::optional<Frame> pop();
 
+  /// What was lost so far.
   [[nodiscard]] const FrameTally& tally() const { return tally_; }
+  /// What the streams were like so far.
   [[nodiscard]] const RigFacts& facts() const { return facts_; }
+  /// Whose clock the poses are stamped with.
   [[nodiscard]] ClockDomain pose_clock() const { return poses_.clock(); }
+  /// As given.
   [[nodiscard]] const Options& options() const { return options_; }
 
  private:

@@ -24,13 +24,19 @@ namespace swiftlet {
 /// pass notices blocks that are missing or too many. Thread safety: one thread at a time.
 class SavedMap {
  public:
+  /// Of the file.
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Cell size, thresholds and what a step is worth, frames, start: as it was last written.
   [[nodiscard]] const MapHeader& header() const { return header_; }
+  /// Edge of a cell [m]
   [[nodiscard]] double voxel_m() const { return header_.voxel_m; }
+  /// Where belief becomes a claim.
   [[nodiscard]] const OccupancyThresholds& thresholds() const { return header_.scale.thresholds; }
+  /// Frames that it had seen.
   [[nodiscard]] std::uint64_t frames() const { return header_.frame_count; }
+  /// Blocks that it says it holds.
   [[nodiscard]] std::uint64_t block_count() const { return block_count_; }
+  /// All lines that describe it.
   [[nodiscard]] const MapMeta& meta() const { return meta_; }
 
   /// A map file that is open to be read; sees one state of it from now on. Errors: as load_map().

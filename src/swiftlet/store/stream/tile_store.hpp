@@ -21,33 +21,34 @@
 
 namespace swiftlet {
 
+/// How the file of a flight is written.
 struct TileStoreOptions {
-  StorePolicy policy = StorePolicy::kKeep;
+  StorePolicy policy = StorePolicy::kKeep;  ///< what becomes of blocks that leave the window
   std::uint64_t max_bytes = 0;  ///< cap of the map file's size; 0 = none, else at least 128 KiB
   std::chrono::milliseconds batch_interval{500};  ///< (0, 1000]: what a killed process may lose
   std::size_t pending_blocks = 16384;  ///< evicted and not yet written; two buffers of 8 MiB
   std::size_t cache_blocks = 16384;    ///< read ahead around the window; two buffers of 8 MiB
-  bool overwrite = false;
+  bool overwrite = false;              ///< replaces a file of that name
 };
 
 /// What the store did so far.
 struct TileStoreStats {
-  std::uint64_t evicted = 0;
-  std::uint64_t restored_from_pending = 0;
-  std::uint64_t restored_from_cache = 0;
-  std::uint64_t restored_from_disk = 0;
-  std::uint64_t stalls = 0;  ///< evictions that had to wait for the disk
+  std::uint64_t evicted = 0;                ///< blocks that left the window
+  std::uint64_t restored_from_pending = 0;  ///< that had not been written yet
+  std::uint64_t restored_from_cache = 0;    ///< that had been read ahead
+  std::uint64_t restored_from_disk = 0;     ///< that had to be read there and then
+  std::uint64_t stalls = 0;                 ///< evictions that had to wait for the disk
   /// Evicted while the disk refused and the buffer was full, or left when the store was closed.
   std::uint64_t lost = 0;
-  std::uint64_t restore_failed = 0;  ///< stored, but unreadable when the window came back
-  std::uint64_t written = 0;         ///< block states written to the file
-  std::uint64_t dropped_by_cap = 0;
-  std::uint64_t batches = 0;           ///< committed
-  std::uint64_t refused_batches = 0;   ///< tried in vain; what they held is tried again
-  std::uint64_t frames_committed = 0;  ///< the file holds everything up to this frame
-  std::uint64_t blocks_stored = 0;
-  std::uint64_t bytes = 0;  ///< of the map file, without pages free for reuse
-  std::chrono::nanoseconds last_batch{0};
+  std::uint64_t restore_failed = 0;        ///< stored, but unreadable when the window came back
+  std::uint64_t written = 0;               ///< block states written to the file
+  std::uint64_t dropped_by_cap = 0;        ///< removed from the file since it was full
+  std::uint64_t batches = 0;               ///< committed
+  std::uint64_t refused_batches = 0;       ///< tried in vain; what they held is tried again
+  std::uint64_t frames_committed = 0;      ///< the file holds everything up to this frame
+  std::uint64_t blocks_stored = 0;         ///< in the file
+  std::uint64_t bytes = 0;                 ///< of the map file, without pages free for reuse
+  std::chrono::nanoseconds last_batch{0};  ///< how long it took to write
   std::optional<Error> error;  ///< newest failure to write or read; cleared by a good batch
 };
 
@@ -82,9 +83,10 @@ class TileStore final : public BlockArchive {
   [[nodiscard]] bool restore(const BlockIndex& index, VoxelBlock& out) override;
   void expect_around(const BlockWindow& window) override;
 
+  /// What it did so far. From any thread.
   [[nodiscard]] TileStoreStats stats() const;
 
-  static constexpr std::chrono::milliseconds kLongestPause{4000};
+  static constexpr std::chrono::milliseconds kLongestPause{4000};  ///< between two tries to write
 
   /// Writes all that is left and the last state of the window, and leaves one single file.
   /// Without `last` the newest snapshot that was published is used. Later calls change nothing.
