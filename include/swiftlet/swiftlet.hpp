@@ -32,7 +32,7 @@
 #include "swiftlet/store/map_file/saved_map.hpp"
 #include "swiftlet/store/map_loader.hpp"
 #include "swiftlet/store/opened_map.hpp"
-#include "swiftlet/store/stream/tile_store.hpp"
+#include "swiftlet/store/stream/block_store.hpp"
 
 // A map as a picture.
 #include "swiftlet/render/map_view.hpp"

@@ -15,7 +15,7 @@
 #include "support/temp_folder.hpp"
 #include "swiftlet/pipeline/mapper.hpp"
 #include "swiftlet/source/sources.hpp"
-#include "swiftlet/store/stream/tile_store.hpp"
+#include "swiftlet/store/stream/block_store.hpp"
 
 namespace swiftlet {
 namespace {
@@ -25,7 +25,7 @@ constexpr std::size_t kWindowLimit_bytes = 40U << 20U;
 /// A real store, watched: what comes back must be what went in last.
 class WatchedStore final : public BlockArchive {
  public:
-  explicit WatchedStore(TileStore& store) : store_(store) {}
+  explicit WatchedStore(BlockStore& store) : store_(store) {}
 
   void evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) override {
     evicted[index] = block;
@@ -46,7 +46,7 @@ class WatchedStore final : public BlockArchive {
   std::size_t restored = 0;
 
  private:
-  TileStore& store_;
+  BlockStore& store_;
 };
 
 /// The built-in scene at 2 Hz: each frame still overlaps the next by half, and the test takes
@@ -69,7 +69,7 @@ TEST(CorridorLoop, keeps_the_window_within_40_MiB_and_gives_back_every_block_bit
   const test::TempFolder folder;
   MapperConfig config;
   config.map.voxel_m = 0.05;
-  auto store = TileStore::create(folder.path() / "corridor.swl", config.map.voxel_m);
+  auto store = BlockStore::create(folder.path() / "corridor.swl", config.map.voxel_m);
   ASSERT_TRUE(store) << store.error().text();
   WatchedStore archive(**store);
   auto mapper = Mapper::create(config, &archive);

@@ -18,7 +18,7 @@
 #include "support/temp_folder.hpp"
 #include "swiftlet/session/flight_recovery.hpp"
 #include "swiftlet/store/map_file/saved_map.hpp"
-#include "swiftlet/store/stream/tile_store.hpp"
+#include "swiftlet/store/stream/block_store.hpp"
 
 namespace swiftlet {
 namespace {
@@ -32,7 +32,7 @@ using ::testing::IsEmpty;
 void write_map(const fs::path& path, std::string_view flight, MapMeta meta = {}) {
   meta[std::string(kFlightKey)] = flight;
   meta.emplace("created", "2026-11-28T13:24:05Z");
-  auto store = TileStore::create(path, 0.1, {.overwrite = true}, meta).value();
+  auto store = BlockStore::create(path, 0.1, {.overwrite = true}, meta).value();
   VoxelBlock block;
   block.clear();
   block.cells[7] = 255;
@@ -44,9 +44,9 @@ void write_map(const fs::path& path, std::string_view flight, MapMeta meta = {})
 void write_cut_map(const fs::path& path) {
   const pid_t writer = fork();
   if (writer == 0) {
-    auto store = TileStore::create(path, 0.1, {.batch_interval = std::chrono::milliseconds(1)},
-                                   {{std::string(kFlightKey), std::string(kUnderWay)},
-                                    {"created", "2026-11-28T13:24:05Z"}})
+    auto store = BlockStore::create(path, 0.1, {.batch_interval = std::chrono::milliseconds(1)},
+                                    {{std::string(kFlightKey), std::string(kUnderWay)},
+                                     {"created", "2026-11-28T13:24:05Z"}})
                      .value();
     VoxelBlock block;
     block.clear();

@@ -31,7 +31,7 @@ int in_child(const std::function<int()>& work) {
 int write_small_map(const std::filesystem::path& path, int kill_at) {
   test::FaultyDisk disk;
   disk.kill_at = kill_at;
-  auto store = TileStore::create(path, 0.1, {}, {{"source", "test"}});
+  auto store = BlockStore::create(path, 0.1, {}, {{"source", "test"}});
   if (!store) return 1;
   for (int i = 0; i < 8; ++i) (*store)->evict({i, 0, 0}, test::block_full_of(i), 1);
   return (*store)->close() ? 0 : 2;

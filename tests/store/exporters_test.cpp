@@ -28,7 +28,7 @@ constexpr OccupancyThresholds kThresholds;
 struct ExportedMap {
   ExportedMap() {
     Random random;
-    auto store = TileStore::create(folder / "a.swl", 0.05);
+    auto store = BlockStore::create(folder / "a.swl", 0.05);
     for (int i = 0; i < 60; ++i) {
       const BlockIndex index{random.integer(-4, 4), random.integer(-4, 4), random.integer(-2, 1)};
       const VoxelBlock block =
@@ -160,7 +160,7 @@ TEST(Exporters, distinct_cells_keep_distinct_points_far_from_the_origin) {
   const TempFolder folder;
   const BlockIndex far{2'250'000, -13'500'000 / 8, 625};  // 900 km east, 675 km south
   const VoxelBlock block = test::random_block(random);
-  auto store = TileStore::create(folder / "far.swl", 0.05);
+  auto store = BlockStore::create(folder / "far.swl", 0.05);
   (*store)->evict(far, block, 1);
   ASSERT_TRUE((*store)->close());
   std::vector<VoxelIndex> occupied;
@@ -229,12 +229,12 @@ TEST(Exporters, liboctomap_reads_exactly_our_free_and_occupied_cells_from_ot) {
 TEST(Exporters, refuse_cells_beyond_octomaps_key_space) {
   TempFolder folder;
   {
-    auto store = TileStore::create(folder / "a.swl", 0.05);
+    auto store = BlockStore::create(folder / "a.swl", 0.05);
     (*store)->evict({4095, 0, 0}, test::block_full_of(255), 1);  // cells up to 32767: the last
   }
   EXPECT_TRUE(export_map("bt", *load_map(folder / "a.swl"), folder / "a.bt"));
   {
-    auto store = TileStore::create(folder / "b.swl", 0.05);
+    auto store = BlockStore::create(folder / "b.swl", 0.05);
     (*store)->evict({4096, 0, 0}, test::block_full_of(255), 1);
   }
   const auto beyond = export_map("bt", *load_map(folder / "b.swl"), folder / "b.bt");

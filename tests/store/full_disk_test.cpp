@@ -22,7 +22,7 @@ constexpr std::size_t kPending = 64;
 
 /// Offers blocks until `is_enough` says so or a minute has passed.
 template <class IsEnough>
-int evict_until(TileStore& store, Random& random, int first, IsEnough&& is_enough) {
+int evict_until(BlockStore& store, Random& random, int first, IsEnough&& is_enough) {
   const auto end = std::chrono::steady_clock::now() + 60s;
   int i = first;
   for (; !is_enough(store.stats()) && std::chrono::steady_clock::now() < end; ++i) {
@@ -38,23 +38,23 @@ TEST(FullStore, goes_on_counts_what_is_lost_and_writes_again_when_there_is_room)
   Random random;
   test::FaultyDisk disk;
   auto store =
-      TileStore::create(folder / "a.swl", 0.1, {.batch_interval = 1ms, .pending_blocks = kPending})
+      BlockStore::create(folder / "a.swl", 0.1, {.batch_interval = 1ms, .pending_blocks = kPending})
           .value();
   int next = evict_until(*store, random, 0, [](const auto& s) { return s.written > 100; });
   disk.room = 0;
   next = evict_until(*store, random, next, [](const auto& s) { return s.lost > 1000; });
-  const TileStoreStats full = store->stats();
+  const BlockStoreStats full = store->stats();
   ASSERT_TRUE(full.error.has_value());
   EXPECT_EQ(full.error->code, ErrorCode::kIo);
   EXPECT_GT(full.refused_batches, 0U);
 
   disk.room = std::numeric_limits<std::int64_t>::max();
-  const auto is_writing = [&](const TileStoreStats& s) { return s.batches > full.batches + 1; };
+  const auto is_writing = [&](const BlockStoreStats& s) { return s.batches > full.batches + 1; };
   next = evict_until(*store, random, next, is_writing);
   EXPECT_FALSE(store->stats().error.has_value()) << "it is over";
   const auto closed = store->close();
   ASSERT_FALSE(closed.has_value()) << "but what was lost is told at the end";
-  const TileStoreStats end = store->stats();
+  const BlockStoreStats end = store->stats();
   EXPECT_NE(closed.error().what.find(std::to_string(end.lost) + " blocks"), std::string::npos)
       << closed.error().text();
   EXPECT_EQ(end.evicted, static_cast<std::uint64_t>(next));
@@ -66,7 +66,7 @@ TEST(FullStore, tries_less_and_less_often) {
   const TempFolder folder;
   Random random;
   test::FaultyDisk disk;
-  auto store = TileStore::create(folder / "a.swl", 0.1, {.batch_interval = 1ms}).value();
+  auto store = BlockStore::create(folder / "a.swl", 0.1, {.batch_interval = 1ms}).value();
   store->evict({1, 0, 0}, test::random_block(random), 1);
   disk.room = 0;
   while (store->stats().refused_batches < 3) std::this_thread::sleep_for(1ms);
@@ -78,7 +78,7 @@ TEST(FullStore, takes_at_its_end_whatever_finds_room) {
   const TempFolder folder;
   Random random;
   test::FaultyDisk disk;
-  auto store = TileStore::create(folder / "a.swl", 0.1, {.batch_interval = 1000ms}).value();
+  auto store = BlockStore::create(folder / "a.swl", 0.1, {.batch_interval = 1000ms}).value();
   for (int i = 0; i < 1000; ++i) store->evict({i, 0, 0}, test::random_block(random), 1);
   disk.room = 300 * 1024;  // about half of it, then the log cannot be folded in
   const auto closed = store->close();
@@ -98,13 +98,13 @@ TEST(FullStore, stays_sound_on_a_real_disk_of_one_megabyte) {
   }
   Random random;
   {
-    auto store = TileStore::create(folder / "a.swl", 0.1,
-                                   {.batch_interval = 1ms, .pending_blocks = kPending})
+    auto store = BlockStore::create(folder / "a.swl", 0.1,
+                                    {.batch_interval = 1ms, .pending_blocks = kPending})
                      .value();
     evict_until(*store, random, 0, [](const auto& s) { return s.lost > 1000; });
     EXPECT_FALSE(store->close());
     EXPECT_TRUE(check_map(folder / "a.swl").empty());
-    const TileStoreStats end = store->stats();
+    const BlockStoreStats end = store->stats();
     EXPECT_EQ(test::blocks_in(folder / "a.swl").size(), end.evicted - end.lost);
   }
   umount2(folder.path().c_str(), MNT_DETACH);

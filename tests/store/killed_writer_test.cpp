@@ -53,7 +53,7 @@ struct Flight {
 
 /// Flies until it is killed; tells `pipe` after each batch the frame that it holds.
 [[noreturn]] void fly(const std::filesystem::path& path, int pipe) {
-  auto store = TileStore::create(path, 0.1, {.batch_interval = 5ms});
+  auto store = BlockStore::create(path, 0.1, {.batch_interval = 5ms});
   if (!store) _exit(3);
   RollingMap map = test::small_map();
   (*store)->follow(map.reader());
@@ -63,7 +63,7 @@ struct Flight {
     Flight::for_each_changed(
         frame, [&](const BlockIndex& index) { map.writable(index) = Flight::state(index, frame); });
     map.publish({frame});
-    const TileStoreStats stats = (*store)->stats();
+    const BlockStoreStats stats = (*store)->stats();
     if (stats.batches == batches) continue;
     batches = stats.batches;
     if (write(pipe, &stats.frames_committed, sizeof stats.frames_committed) < 0) _exit(4);
@@ -129,14 +129,14 @@ TEST(KilledWriter, leaves_a_consistent_file_with_everything_up_to_the_last_batch
 int map_onto_a_full_disk(const std::filesystem::path& path) {
   std::signal(SIGXFSZ, SIG_IGN);
   Random random(5);
-  auto store = TileStore::create(path, 0.1, {.batch_interval = 2ms, .pending_blocks = 256});
+  auto store = BlockStore::create(path, 0.1, {.batch_interval = 2ms, .pending_blocks = 256});
   if (!store) return 1;
   const rlimit limit{256 * 1024, 256 * 1024};
   if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
   for (int i = 0; i < 20'000; ++i) {  // 10 MB that do not compress: mapping must go on
     (*store)->evict({i, 0, 0}, test::random_block(random), static_cast<std::uint64_t>(i));
   }
-  const TileStoreStats stats = (*store)->stats();
+  const BlockStoreStats stats = (*store)->stats();
   if (!stats.error || stats.error->code != ErrorCode::kIo) return 3;
   if (stats.lost == 0 || stats.batches == 0) return 4;
   if (stats.error->text().find(path.string()) == std::string::npos) return 5;

@@ -18,7 +18,7 @@ using test::TempFolder;
 /// A map of a few hundred blocks, as a flight leaves it.
 Blocks write_map(const std::filesystem::path& path, Random& random) {
   Blocks blocks;
-  auto store = TileStore::create(path, 0.1, {}, {{"config", "map:\n  voxel_m: 0.1\n"}});
+  auto store = BlockStore::create(path, 0.1, {}, {{"config", "map:\n  voxel_m: 0.1\n"}});
   for (int i = 0; i < 150; ++i) {
     const BlockIndex index{random.integer(-9, 9), random.integer(-9, 9), random.integer(-2, 2)};
     blocks[index] = i % 3 == 0 ? test::random_block(random) : test::block_full_of(i);

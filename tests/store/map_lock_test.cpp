@@ -42,7 +42,7 @@ class Writing {
 
  private:
   [[noreturn]] static void write_until_killed(const std::filesystem::path& path, int pipe) {
-    auto store = TileStore::create(path, 0.1, {.batch_interval = std::chrono::milliseconds(1)});
+    auto store = BlockStore::create(path, 0.1, {.batch_interval = std::chrono::milliseconds(1)});
     if (!store) _exit(3);
     (*store)->evict({1, 2, 3}, test::block_full_of(9), 1);
     while ((*store)->stats().written == 0) usleep(1000);
@@ -57,7 +57,7 @@ TEST(MapLock, a_second_writer_is_refused_and_told_who_writes) {
   Writing first(folder / "a.swl");
   const std::string pid = std::to_string(first.pid());
   for (const bool overwrite : {false, true}) {
-    const auto second = TileStore::create(folder / "a.swl", 0.1, {.overwrite = overwrite});
+    const auto second = BlockStore::create(folder / "a.swl", 0.1, {.overwrite = overwrite});
     ASSERT_FALSE(second.has_value());
     EXPECT_EQ(second.error().code, ErrorCode::kUsage);
     EXPECT_NE(second.error().text().find("process " + pid), std::string::npos)
@@ -79,7 +79,7 @@ TEST(MapLock, ends_with_its_process_however_that_ends) {
   Writing first(folder / "a.swl");
   first.end();
   EXPECT_FALSE(MapFile::writer_of(folder / "a.swl").has_value());
-  EXPECT_TRUE(TileStore::create(folder / "a.swl", 0.1, {.overwrite = true}).has_value());
+  EXPECT_TRUE(BlockStore::create(folder / "a.swl", 0.1, {.overwrite = true}).has_value());
 }
 
 TEST(MapLock, follows_a_map_to_its_new_name) {
@@ -93,10 +93,10 @@ TEST(MapLock, follows_a_map_to_its_new_name) {
 
 TEST(MapLock, is_held_from_the_first_moment_to_close_in_this_process_too) {
   const TempFolder folder;
-  auto store = TileStore::create(folder / "a.swl", 0.1).value();
+  auto store = BlockStore::create(folder / "a.swl", 0.1).value();
   ASSERT_TRUE(MapFile::writer_of(folder / "a.swl").has_value());
   EXPECT_EQ(MapFile::writer_of(folder / "a.swl")->pid, getpid());
-  EXPECT_FALSE(TileStore::create(folder / "a.swl", 0.1, {.overwrite = true}));
+  EXPECT_FALSE(BlockStore::create(folder / "a.swl", 0.1, {.overwrite = true}));
   ASSERT_TRUE(store->close());
   EXPECT_FALSE(MapFile::writer_of(folder / "a.swl").has_value());
   EXPECT_FALSE(MapFile::writer_of(folder / "none.swl").has_value());
@@ -108,7 +108,7 @@ TEST(MapFileNames, a_new_map_touches_no_file_of_the_user) {
   for (const char* name : {"a.swl.new", "a.swl.new-journal", "a.swl.part"}) {
     std::filesystem::create_symlink(folder / "mine", folder / name);
   }
-  ASSERT_TRUE(TileStore::create(folder / "a.swl", 0.1).value()->close());
+  ASSERT_TRUE(BlockStore::create(folder / "a.swl", 0.1).value()->close());
   EXPECT_EQ(test::content_of(folder / "mine"), "keep me");
   for (const char* name : {"a.swl.new", "a.swl.new-journal", "a.swl.part"}) {
     EXPECT_TRUE(std::filesystem::is_symlink(folder / name)) << name;
@@ -124,7 +124,7 @@ TEST(MapFileNames, the_logs_of_another_database_are_neither_deleted_nor_replayed
       if (has_other) test::write_file(folder / "a.swl", "no map of ours");
       const std::string log = std::string("a.swl") + suffix;
       test::write_file(folder / log, "content of another database");
-      const auto refused = TileStore::create(folder / "a.swl", 0.1, {.overwrite = true});
+      const auto refused = BlockStore::create(folder / "a.swl", 0.1, {.overwrite = true});
       ASSERT_FALSE(refused.has_value()) << log;
       EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
       EXPECT_NE(refused.error().text().find(log), std::string::npos) << refused.error().text();

@@ -21,7 +21,7 @@ using test::TempFolder;
 Blocks write_salvage_map(const std::filesystem::path& path, Random& random, int blocks = 150) {
   Blocks truth;
   auto store =
-      TileStore::create(path, 0.1, {}, {{"config", std::string(6000, '#')}, {"start_m", "1 -2 3"}})
+      BlockStore::create(path, 0.1, {}, {{"config", std::string(6000, '#')}, {"start_m", "1 -2 3"}})
           .value();
   for (int i = 0; i < blocks; ++i) {
     const BlockIndex index{random.integer(-20, 20), random.integer(-20, 20), random.integer(-2, 2)};
@@ -152,7 +152,7 @@ TEST(Salvage, finds_the_blocks_of_a_file_without_its_header_and_of_one_that_is_c
 TEST(Salvage, does_not_bring_back_what_the_map_has_forgotten) {
   const TempFolder folder;
   Random random;
-  auto store = TileStore::create(folder / "a.swl", 0.1, {.max_bytes = 200 * 1024}).value();
+  auto store = BlockStore::create(folder / "a.swl", 0.1, {.max_bytes = 200 * 1024}).value();
   for (int i = 0; i < 600; ++i) {
     store->evict({i, 0, 0}, test::random_block(random), static_cast<std::uint64_t>(i));
   }
@@ -168,7 +168,7 @@ TEST(Salvage, reads_the_log_of_a_writer_that_was_killed) {
   const TempFolder folder;
   Random random;
   auto store =
-      TileStore::create(folder / "a.swl", 0.1, {.batch_interval = std::chrono::milliseconds(1)})
+      BlockStore::create(folder / "a.swl", 0.1, {.batch_interval = std::chrono::milliseconds(1)})
           .value();
   for (int i = 0; i < 50; ++i) store->evict({i, 0, 0}, test::block_full_of(i), 1);
   while (store->stats().blocks_stored < 50) std::this_thread::yield();

@@ -17,7 +17,7 @@
 #include "support/temp_folder.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/store/map_file/saved_map.hpp"
-#include "swiftlet/store/stream/tile_store.hpp"
+#include "swiftlet/store/stream/block_store.hpp"
 
 namespace swiftlet::test {
 

@@ -49,18 +49,18 @@ void MappingSession::keep_failure(Error failure) {
   if (!failure_) failure_ = std::move(failure);
 }
 
-Expected<std::unique_ptr<TileStore>> MappingSession::new_store(const std::filesystem::path& path,
-                                                               bool overwrite) {
+Expected<std::unique_ptr<BlockStore>> MappingSession::new_store(const std::filesystem::path& path,
+                                                                bool overwrite) {
   MapMeta meta = options_.meta;
   put_header({mapper_->map().voxel_m(), mapper_->map().scale(), 0, start_m_}, meta);
   meta[std::string(kFlightKey)] = kUnderWay;
   if (!aside_.empty() && paths_.empty()) meta[std::string(kReplacesKey)] = aside_.filename();
-  TileStoreOptions options = options_.store;
+  BlockStoreOptions options = options_.store;
   options.overwrite = overwrite;
-  return TileStore::create(path, mapper_->map().voxel_m(), options, std::move(meta));
+  return BlockStore::create(path, mapper_->map().voxel_m(), options, std::move(meta));
 }
 
-void MappingSession::adopt(std::unique_ptr<TileStore> store, const std::filesystem::path& path) {
+void MappingSession::adopt(std::unique_ptr<BlockStore> store, const std::filesystem::path& path) {
   store_ = std::move(store);
   store_->follow(mapper_->reader());
   archive_.attach(*store_);

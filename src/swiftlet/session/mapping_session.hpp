@@ -12,14 +12,14 @@
 #include "swiftlet/pipeline/mapper.hpp"
 #include "swiftlet/session/mapping_summary.hpp"
 #include "swiftlet/session/session_observer.hpp"
-#include "swiftlet/store/stream/tile_store.hpp"
+#include "swiftlet/store/stream/block_store.hpp"
 
 namespace swiftlet {
 
 /// Where a session writes, and who looks on.
 struct SessionOptions {
   std::string path;                     ///< of the map file
-  TileStoreOptions store{};             ///< how the map file is written
+  BlockStoreOptions store{};            ///< how the map file is written
   MapMeta meta{};                       ///< lines that describe the map (docs/formats/map_file.md)
   SessionObserver* observer = nullptr;  ///< null: nobody looks on; else it outlives the session
 };
@@ -91,9 +91,9 @@ class MappingSession {
   [[nodiscard]] Status begin_map(const MapperConfig& config);
   [[nodiscard]] Status create_file();
   [[nodiscard]] Status create_first_file();
-  [[nodiscard]] Expected<std::unique_ptr<TileStore>> new_store(const std::filesystem::path& path,
-                                                               bool overwrite);
-  void adopt(std::unique_ptr<TileStore> store, const std::filesystem::path& path);
+  [[nodiscard]] Expected<std::unique_ptr<BlockStore>> new_store(const std::filesystem::path& path,
+                                                                bool overwrite);
+  void adopt(std::unique_ptr<BlockStore> store, const std::filesystem::path& path);
   [[nodiscard]] Expected<SavedFile> read_back(const std::filesystem::path& path) const;
   void start_again(std::uint32_t pose_epoch);
   void close_file();
@@ -106,7 +106,7 @@ class MappingSession {
   std::filesystem::path aside_;  // the map that is to be replaced; empty if there is none
   MappingSummary summary_;
   // In this order: the mapper calls the archive, which calls the store, which reads the map.
-  std::unique_ptr<TileStore> store_;
+  std::unique_ptr<BlockStore> store_;
   LateArchive archive_;
   std::unique_ptr<Mapper> mapper_;
   std::optional<Eigen::Vector3d> start_m_;  // of this world; nullopt until a frame is integrated

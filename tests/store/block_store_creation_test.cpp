@@ -12,24 +12,24 @@ namespace {
 using namespace std::chrono_literals;
 using test::TempFolder;
 
-TEST(TileStoreCreation, refuses_to_overwrite_unless_told_and_then_starts_empty) {
+TEST(BlockStoreCreation, refuses_to_overwrite_unless_told_and_then_starts_empty) {
   TempFolder folder;
   {
-    auto store = TileStore::create(folder / "a.swl", 0.1).value();
+    auto store = BlockStore::create(folder / "a.swl", 0.1).value();
     store->evict({1, 2, 3}, test::block_full_of(9), 1);
   }
   const auto before = test::bytes_of(folder / "a.swl");
-  const auto refused = TileStore::create(folder / "a.swl", 0.1);
+  const auto refused = BlockStore::create(folder / "a.swl", 0.1);
   ASSERT_FALSE(refused.has_value());
   EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
   EXPECT_EQ(test::bytes_of(folder / "a.swl"), before);
-  auto store = TileStore::create(folder / "a.swl", 0.1, {.overwrite = true});
+  auto store = BlockStore::create(folder / "a.swl", 0.1, {.overwrite = true});
   ASSERT_TRUE(store.has_value());
   ASSERT_TRUE((*store)->close());
   EXPECT_TRUE(test::blocks_in(folder / "a.swl").empty());
 }
 
-TEST(TileStoreCreation, a_map_has_its_description_as_soon_as_it_has_its_name) {
+TEST(BlockStoreCreation, a_map_has_its_description_as_soon_as_it_has_its_name) {
   TempFolder folder;  // so a writer that is killed before its first batch leaves a valid map
   const MapMeta meta{{"voxel_m", "0.1"}, {"frames", "0"}, {"source", "somewhere"}};
   ASSERT_TRUE(MapFile::create(folder / "a.swl", false, meta));
@@ -40,9 +40,9 @@ TEST(TileStoreCreation, a_map_has_its_description_as_soon_as_it_has_its_name) {
   EXPECT_EQ(map->block_count(), 0U);
 }
 
-TEST(TileStoreCreation, says_where_it_cannot_write) {
+TEST(BlockStoreCreation, says_where_it_cannot_write) {
   for (const char* place : {"/proc/a.swl", "/nowhere/at/all/a.swl"}) {
-    const auto store = TileStore::create(place, 0.1);
+    const auto store = BlockStore::create(place, 0.1);
     ASSERT_FALSE(store.has_value()) << place;
     EXPECT_EQ(store.error().code, ErrorCode::kIo);
     EXPECT_NE(store.error().text().find(place), std::string::npos) << store.error().text();
@@ -52,7 +52,7 @@ TEST(TileStoreCreation, says_where_it_cannot_write) {
 
 TEST(CutOffMap, without_its_log_is_read_and_nothing_is_left_beside_it) {
   TempFolder folder;
-  const auto store = TileStore::create(folder / "a.swl", 0.1).value();
+  const auto store = BlockStore::create(folder / "a.swl", 0.1).value();
   std::filesystem::create_directory(folder / "b");
   const auto copy = folder / "b" / "a.swl";
   std::filesystem::copy_file(folder / "a.swl", copy);
@@ -67,23 +67,23 @@ TEST(CutOffMap, without_its_log_is_read_and_nothing_is_left_beside_it) {
 }
 
 #ifdef SWIFTLET_CAN_LACK_THREADS
-TEST(TileStoreCreation, says_so_and_leaves_nothing_if_the_system_has_no_thread_for_it) {
+TEST(BlockStoreCreation, says_so_and_leaves_nothing_if_the_system_has_no_thread_for_it) {
   TempFolder folder;
   const test::NoThreads none;
   const auto store =
-      TileStore::create(folder / "a.swl", 0.1, {.pending_blocks = 16, .cache_blocks = 16});
+      BlockStore::create(folder / "a.swl", 0.1, {.pending_blocks = 16, .cache_blocks = 16});
   ASSERT_FALSE(store.has_value());
   EXPECT_EQ(store.error().code, ErrorCode::kOutOfMemory);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 #endif
 
-TEST(TileStoreCreation, refuses_options_that_cannot_be_meant) {
+TEST(BlockStoreCreation, refuses_options_that_cannot_be_meant) {
   TempFolder folder;
-  for (const TileStoreOptions& bad :
-       {TileStoreOptions{.max_bytes = 1000}, TileStoreOptions{.batch_interval = 0ms},
-        TileStoreOptions{.batch_interval = 1001ms}, TileStoreOptions{.pending_blocks = 0}}) {
-    const auto store = TileStore::create(folder / "a.swl", 0.1, bad);
+  for (const BlockStoreOptions& bad :
+       {BlockStoreOptions{.max_bytes = 1000}, BlockStoreOptions{.batch_interval = 0ms},
+        BlockStoreOptions{.batch_interval = 1001ms}, BlockStoreOptions{.pending_blocks = 0}}) {
+    const auto store = BlockStore::create(folder / "a.swl", 0.1, bad);
     ASSERT_FALSE(store.has_value());
     EXPECT_EQ(store.error().code, ErrorCode::kInvalidConfig);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.swl"));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/store/stream/tile_store.hpp"
+#include "swiftlet/store/stream/block_store.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kMinCapBytes = std::uint64_t{128} << 10U;
 
-Status validate(const TileStoreOptions& o) {
+Status validate(const BlockStoreOptions& o) {
   using std::chrono::milliseconds;
   if (o.batch_interval <= milliseconds(0) || o.batch_interval > milliseconds(1000)) {
     return fail(ErrorCode::kInvalidConfig, "store.batch_interval",
@@ -34,10 +34,10 @@ Status validate(const TileStoreOptions& o) {
 
 }  // namespace
 
-Expected<std::unique_ptr<TileStore>> TileStore::create(const std::filesystem::path& path,
-                                                       double voxel_m,
-                                                       const TileStoreOptions& options,
-                                                       MapMeta meta) {
+Expected<std::unique_ptr<BlockStore>> BlockStore::create(const std::filesystem::path& path,
+                                                         double voxel_m,
+                                                         const BlockStoreOptions& options,
+                                                         MapMeta meta) {
   if (auto valid = validate(options); !valid) return forward_error(std::move(valid));
   // With its description from the start: a map whose writer is killed before a frame is valid.
   meta["voxel_m"] = fmt::format("{}", voxel_m);
@@ -49,9 +49,9 @@ Expected<std::unique_ptr<TileStore>> TileStore::create(const std::filesystem::pa
   return store;
 }
 
-Expected<std::unique_ptr<TileStore>> TileStore::open(const std::filesystem::path& path,
-                                                     const TileStoreOptions& options, MapMeta meta,
-                                                     MapLock lock) {
+Expected<std::unique_ptr<BlockStore>> BlockStore::open(const std::filesystem::path& path,
+                                                       const BlockStoreOptions& options,
+                                                       MapMeta meta, MapLock lock) {
   auto writer = BatchWriter::open(path, options.policy, options.max_bytes, std::move(lock));
   if (!writer) return forward_error(std::move(writer));
   // Proves, before the flight, that the disk takes what is written.
@@ -60,8 +60,8 @@ Expected<std::unique_ptr<TileStore>> TileStore::open(const std::filesystem::path
   }
   auto reading = MapFile::open_to_read(path);
   if (!reading) return forward_error(std::move(reading));
-  std::unique_ptr<TileStore> store(
-      new TileStore(options, std::move(*writer), std::move(*reading), std::move(meta)));
+  std::unique_ptr<BlockStore> store(
+      new BlockStore(options, std::move(*writer), std::move(*reading), std::move(meta)));
   auto thread = start_thread(path.string(), [&own = *store] { own.run(); });
   if (!thread) {
     store->is_closed_ = true;  // there is nothing to write
@@ -71,8 +71,8 @@ Expected<std::unique_ptr<TileStore>> TileStore::open(const std::filesystem::path
   return store;
 }
 
-TileStore::TileStore(const TileStoreOptions& options, BatchWriter writer, MapFile reading,
-                     MapMeta meta)
+BlockStore::BlockStore(const BlockStoreOptions& options, BatchWriter writer, MapFile reading,
+                       MapMeta meta)
     : options_(options),
       writer_(std::move(writer)),
       pause_(options.batch_interval),
@@ -83,19 +83,19 @@ TileStore::TileStore(const TileStoreOptions& options, BatchWriter writer, MapFil
       cache_(options.cache_blocks),
       notes_(std::move(meta)) {}
 
-TileStore::~TileStore() { static_cast<void>(close()); }
+BlockStore::~BlockStore() { static_cast<void>(close()); }
 
-void TileStore::follow(MapReader reader) {
+void BlockStore::follow(MapReader reader) {
   const std::lock_guard lock(mutex_);
   if (!reader_) reader_.emplace(std::move(reader));
 }
 
-void TileStore::note(const std::string& key, const std::string& value) {
+void BlockStore::note(const std::string& key, const std::string& value) {
   const std::lock_guard lock(mutex_);
   notes_[key] = value;
 }
 
-void TileStore::evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) {
+void BlockStore::evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) {
   std::unique_lock lock(mutex_);
   ++stats_.evicted;
   if (options_.policy == StorePolicy::kDrop || is_closed_) return;
@@ -117,7 +117,7 @@ void TileStore::evict(const BlockIndex& index, const VoxelBlock& block, std::uin
   }
 }
 
-bool TileStore::restore(const BlockIndex& index, VoxelBlock& out) {
+bool BlockStore::restore(const BlockIndex& index, VoxelBlock& out) {
   {
     const std::lock_guard lock(mutex_);
     if (options_.policy == StorePolicy::kDrop) return false;
@@ -139,7 +139,7 @@ bool TileStore::restore(const BlockIndex& index, VoxelBlock& out) {
   return restore_from_disk(index, out);
 }
 
-bool TileStore::restore_from_disk(const BlockIndex& index, VoxelBlock& out) {
+bool BlockStore::restore_from_disk(const BlockIndex& index, VoxelBlock& out) {
   auto found = reading_.read(
       index, [&](const BlockRow& row) { return decode_row(row, restore_codec_, out); });
   const std::lock_guard lock(mutex_);
@@ -152,19 +152,19 @@ bool TileStore::restore_from_disk(const BlockIndex& index, VoxelBlock& out) {
   return *found;  // false: the cap dropped it this very moment
 }
 
-void TileStore::expect_around(const BlockWindow& window) {
+void BlockStore::expect_around(const BlockWindow& window) {
   if (options_.policy == StorePolicy::kDrop) return;
   const std::lock_guard lock(mutex_);
   expected_ = window;
   wake_.notify_one();
 }
 
-TileStoreStats TileStore::stats() const {
+BlockStoreStats BlockStore::stats() const {
   const std::lock_guard lock(mutex_);
   return stats_;
 }
 
-Status TileStore::close(std::optional<MapSnapshot> last) {
+Status BlockStore::close(std::optional<MapSnapshot> last) {
   {
     const std::lock_guard lock(mutex_);
     if (is_closed_) return Done{};
@@ -194,12 +194,12 @@ Status TileStore::close(std::optional<MapSnapshot> last) {
 
 Status save_map(const std::filesystem::path& path, const MapSnapshot& map, bool overwrite,
                 MapMeta meta) {
-  TileStoreOptions options;
+  BlockStoreOptions options;
   options.overwrite = overwrite;
   options.pending_blocks = 1;  // one batch, from the snapshot
   options.cache_blocks = 1;
   put_header({map.voxel_m(), map.scale(), map.frame_count()}, meta);
-  auto store = TileStore::create(path, map.voxel_m(), options, std::move(meta));
+  auto store = BlockStore::create(path, map.voxel_m(), options, std::move(meta));
   if (!store) return forward_error(std::move(store));
   return (*store)->close(map);
 }

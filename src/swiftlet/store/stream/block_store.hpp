@@ -22,7 +22,7 @@
 namespace swiftlet {
 
 /// How the file of a flight is written.
-struct TileStoreOptions {
+struct BlockStoreOptions {
   StorePolicy policy = StorePolicy::kKeep;  ///< what becomes of blocks that leave the window
   std::uint64_t max_bytes = 0;  ///< cap of the map file's size; 0 = none, else at least 128 KiB
   std::chrono::milliseconds batch_interval{500};  ///< (0, 1000]: what a killed process may lose
@@ -32,7 +32,7 @@ struct TileStoreOptions {
 };
 
 /// What the store did so far.
-struct TileStoreStats {
+struct BlockStoreStats {
   std::uint64_t evicted = 0;                ///< blocks that left the window
   std::uint64_t restored_from_pending = 0;  ///< that had not been written yet
   std::uint64_t restored_from_cache = 0;    ///< that had been read ahead
@@ -63,16 +63,16 @@ struct TileStoreStats {
 /// Failures of the disk never stop the mapping; they are in stats() and close() returns them. While
 /// the disk refuses, batches are tried less and less often, down to one in kLongestPause; what
 /// leaves the window waits in the buffer, and is lost and counted when that is full.
-class TileStore final : public BlockArchive {
+class BlockStore final : public BlockArchive {
  public:
   /// Makes the file `path` and starts the writer. `meta` describes the map: config, source, ...
   /// Until close() this process is its writer (MapFile::writer_of()).
   /// Errors: kUsage if the file exists and may not be overwritten or is being written,
   /// kInvalidConfig, kIo, kOutOfMemory if the system starts no thread.
-  [[nodiscard]] static Expected<std::unique_ptr<TileStore>> create(
-      const std::filesystem::path& path, double voxel_m, const TileStoreOptions& options = {},
+  [[nodiscard]] static Expected<std::unique_ptr<BlockStore>> create(
+      const std::filesystem::path& path, double voxel_m, const BlockStoreOptions& options = {},
       MapMeta meta = {});
-  ~TileStore() override;
+  ~BlockStore() override;
 
   /// From now on each batch holds the newest snapshot of the window, too.
   void follow(MapReader reader);
@@ -84,7 +84,7 @@ class TileStore final : public BlockArchive {
   void expect_around(const BlockWindow& window) override;
 
   /// What it did so far. From any thread.
-  [[nodiscard]] TileStoreStats stats() const;
+  [[nodiscard]] BlockStoreStats stats() const;
 
   static constexpr std::chrono::milliseconds kLongestPause{4000};  ///< between two tries to write
 
@@ -96,10 +96,10 @@ class TileStore final : public BlockArchive {
 
  private:
   /// Opens the map of no blocks that create() has made.
-  [[nodiscard]] static Expected<std::unique_ptr<TileStore>> open(const std::filesystem::path& path,
-                                                                 const TileStoreOptions& options,
-                                                                 MapMeta meta, MapLock lock);
-  TileStore(const TileStoreOptions& options, BatchWriter writer, MapFile reading, MapMeta meta);
+  [[nodiscard]] static Expected<std::unique_ptr<BlockStore>> open(const std::filesystem::path& path,
+                                                                  const BlockStoreOptions& options,
+                                                                  MapMeta meta, MapLock lock);
+  BlockStore(const BlockStoreOptions& options, BatchWriter writer, MapFile reading, MapMeta meta);
   void run();
   void write_batch();
   /// True if the batch was committed, and nothing is pending in writing_ any more.
@@ -114,7 +114,7 @@ class TileStore final : public BlockArchive {
   void read_ahead(const BlockWindow& window);
   [[nodiscard]] bool restore_from_disk(const BlockIndex& index, VoxelBlock& out);
 
-  const TileStoreOptions options_;
+  const BlockStoreOptions options_;
 
   // The writer thread's own.
   BatchWriter writer_;
@@ -141,7 +141,7 @@ class TileStore final : public BlockArchive {
   bool is_refused_ = false;  // the last batch failed
   bool is_closing_ = false;
   bool is_closed_ = false;
-  TileStoreStats stats_;
+  BlockStoreStats stats_;
 
   std::thread thread_;  // started by open()
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/store/stream/tile_store.hpp"
+#include "swiftlet/store/stream/block_store.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,15 +19,15 @@ using test::Blocks;
 using test::Random;
 using test::TempFolder;
 
-std::unique_ptr<TileStore> make_store(const std::filesystem::path& path,
-                                      TileStoreOptions options = {}) {
-  auto store = TileStore::create(path, 0.1, options);
+std::unique_ptr<BlockStore> make_store(const std::filesystem::path& path,
+                                       BlockStoreOptions options = {}) {
+  auto store = BlockStore::create(path, 0.1, options);
   EXPECT_TRUE(store.has_value()) << (store ? "" : store.error().text());
   return std::move(*store);
 }
 
 /// Waits until one more batch has been committed that began after this call.
-void wait_for_batch(const TileStore& store) {
+void wait_for_batch(const BlockStore& store) {
   const std::uint64_t now = store.stats().batches;
   while (store.stats().batches < now + 2) std::this_thread::sleep_for(1ms);
 }
@@ -44,7 +44,7 @@ void change_some(RollingMap& map, Random& random, int blocks) {
   }
 }
 
-TEST(TileStore, loading_a_saved_map_gives_the_map) {
+TEST(BlockStore, loading_a_saved_map_gives_the_map) {
   TempFolder folder;
   Random random;
   for (int round = 0; round < 5; ++round) {
@@ -62,7 +62,7 @@ TEST(TileStore, loading_a_saved_map_gives_the_map) {
   }
 }
 
-TEST(TileStore, saving_twice_gives_the_same_bytes) {
+TEST(BlockStore, saving_twice_gives_the_same_bytes) {
   TempFolder folder;
   Random random;
   RollingMap map = test::small_map();
@@ -74,7 +74,7 @@ TEST(TileStore, saving_twice_gives_the_same_bytes) {
   EXPECT_EQ(test::bytes_of(folder / "a.swl"), test::bytes_of(folder / "b.swl"));
 }
 
-TEST(TileStore, leaves_one_single_file_at_close) {
+TEST(BlockStore, leaves_one_single_file_at_close) {
   TempFolder folder;
   auto store = make_store(folder / "a.swl");
   store->evict({1, 2, 3}, test::block_full_of(9), 1);
@@ -84,7 +84,7 @@ TEST(TileStore, leaves_one_single_file_at_close) {
   EXPECT_EQ(test::blocks_in(folder / "a.swl"), (Blocks{{{1, 2, 3}, test::block_full_of(9)}}));
 }
 
-TEST(TileStore, gives_back_bit_for_bit_from_memory_from_cache_and_from_disk) {
+TEST(BlockStore, gives_back_bit_for_bit_from_memory_from_cache_and_from_disk) {
   TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.batch_interval = 5ms});
@@ -111,7 +111,7 @@ TEST(TileStore, gives_back_bit_for_bit_from_memory_from_cache_and_from_disk) {
   EXPECT_GT(store->stats().restored_from_cache, 0U);
 }
 
-TEST(TileStore, a_block_changed_after_it_was_read_ahead_comes_back_changed) {
+TEST(BlockStore, a_block_changed_after_it_was_read_ahead_comes_back_changed) {
   TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.batch_interval = 1ms});
@@ -128,7 +128,7 @@ TEST(TileStore, a_block_changed_after_it_was_read_ahead_comes_back_changed) {
 }
 
 // Model test: the window wanders at random over a world that a hash map remembers whole.
-TEST(TileStore, a_window_that_wanders_finds_everything_as_it_left_it) {
+TEST(BlockStore, a_window_that_wanders_finds_everything_as_it_left_it) {
   TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.batch_interval = 2ms, .pending_blocks = 64});
@@ -151,7 +151,7 @@ TEST(TileStore, a_window_that_wanders_finds_everything_as_it_left_it) {
     map.for_each_known_block([&](const BlockIndex& i, const VoxelBlock& b) { world[i] = b; });
     map.publish({frame});
   }
-  const TileStoreStats stats = store->stats();
+  const BlockStoreStats stats = store->stats();
   EXPECT_EQ(stats.restore_failed, 0U);
   EXPECT_EQ(stats.lost, 0U);
   ASSERT_TRUE(store->close(map.snapshot({600})));
@@ -159,7 +159,7 @@ TEST(TileStore, a_window_that_wanders_finds_everything_as_it_left_it) {
       << random.repeat();
 }
 
-TEST(TileStore, a_corridor_there_and_back_restores_every_block_that_was_evicted) {
+TEST(BlockStore, a_corridor_there_and_back_restores_every_block_that_was_evicted) {
   TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.batch_interval = 5ms});
@@ -190,7 +190,7 @@ TEST(TileStore, a_corridor_there_and_back_restores_every_block_that_was_evicted)
   EXPECT_GT(there.size() * sizeof(VoxelBlock), limit);
 }
 
-TEST(TileStore, never_exceeds_the_cap_and_drops_the_oldest_first) {
+TEST(BlockStore, never_exceeds_the_cap_and_drops_the_oldest_first) {
   TempFolder folder;
   Random random;
   constexpr std::uint64_t kCap = 256 * 1024;
@@ -237,7 +237,7 @@ TEST(TileStore, never_exceeds_the_cap_and_drops_the_oldest_first) {
   EXPECT_TRUE(check_map(folder / "a.swl").empty());
 }
 
-TEST(TileStore, policy_drop_keeps_the_window_and_nothing_else) {
+TEST(BlockStore, policy_drop_keeps_the_window_and_nothing_else) {
   TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.policy = StorePolicy::kDrop, .batch_interval = 2ms});
@@ -257,7 +257,7 @@ TEST(TileStore, policy_drop_keeps_the_window_and_nothing_else) {
   EXPECT_EQ(test::blocks_in(folder / "a.swl"), test::blocks_in(*last)) << random.repeat();
 }
 
-TEST(TileStore, a_map_can_be_read_while_it_is_written) {
+TEST(BlockStore, a_map_can_be_read_while_it_is_written) {
   TempFolder folder;
   Random random;
   auto store = make_store(folder / "a.swl", {.batch_interval = 1ms});

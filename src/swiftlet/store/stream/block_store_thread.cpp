@@ -2,12 +2,12 @@
 // Copyright the Swiftlet authors
 
 // What the store's own thread does: batches, and reading ahead. The mapping thread's half is in
-// tile_store.cpp.
+// block_store.cpp.
 
 #include <algorithm>
 #include <utility>
 
-#include "swiftlet/store/stream/tile_store.hpp"
+#include "swiftlet/store/stream/block_store.hpp"
 
 namespace swiftlet {
 namespace {
@@ -23,7 +23,7 @@ BlockWindow grown(const BlockWindow& w, int by) {
 
 }  // namespace
 
-void TileStore::run() {
+void BlockStore::run() {
   auto next_batch = Clock::now() + pause_;
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -47,7 +47,7 @@ void TileStore::run() {
   }
 }
 
-void TileStore::write_batch() {
+void BlockStore::write_batch() {
   // What an earlier batch could not write goes first and alone: with it, filling_ cannot be taken
   // along, and a snapshot without the evictions before it would leave a gap.
   if (!writing_.empty() && !write_once(nullptr)) return;
@@ -61,13 +61,13 @@ void TileStore::write_batch() {
   write_once(window ? &*window : nullptr);
 }
 
-void TileStore::swap_pending() {
+void BlockStore::swap_pending() {
   const std::lock_guard lock(mutex_);
   std::swap(filling_, writing_);
   room_.notify_all();
 }
 
-bool TileStore::write_once(const MapSnapshot* window) {
+bool BlockStore::write_once(const MapSnapshot* window) {
   const auto start = Clock::now();
   MapMeta notes;
   {
@@ -88,7 +88,7 @@ bool TileStore::write_once(const MapSnapshot* window) {
   return true;
 }
 
-void TileStore::note_refusal(Error error) {
+void BlockStore::note_refusal(Error error) {
   const std::lock_guard lock(mutex_);
   ++stats_.refused_batches;
   stats_.error = std::move(error);
@@ -96,7 +96,7 @@ void TileStore::note_refusal(Error error) {
   room_.notify_all();
 }
 
-std::size_t TileStore::write_what_fits(const MapSnapshot* window) {
+std::size_t BlockStore::write_what_fits(const MapSnapshot* window) {
   if (write_once(window)) return 0;
   // The evicted ones first: they are the map; the window is what the last frames saw again.
   const std::size_t left = write_in_parts({nullptr, &writing_, nullptr}, writing_.size());
@@ -112,7 +112,7 @@ std::size_t TileStore::write_what_fits(const MapSnapshot* window) {
 }
 
 /// Half, a quarter, ... of what is left, until not even a few blocks find room.
-std::size_t TileStore::write_in_parts(BatchWriter::Content content, std::size_t blocks) {
+std::size_t BlockStore::write_in_parts(BatchWriter::Content content, std::size_t blocks) {
   constexpr std::size_t kSmallest = 16;
   std::size_t done = 0;
   for (std::size_t size = (blocks + 1) / 2; done < blocks;) {
@@ -131,7 +131,7 @@ std::size_t TileStore::write_in_parts(BatchWriter::Content content, std::size_t 
   return blocks - done;
 }
 
-void TileStore::account(const BatchWriter::Report& report, std::chrono::nanoseconds took) {
+void BlockStore::account(const BatchWriter::Report& report, std::chrono::nanoseconds took) {
   // In short turns, for the mapping thread may be waiting; writing_ answers for the blocks until
   // the end.
   constexpr std::size_t kTurn = 512;
@@ -159,7 +159,7 @@ void TileStore::account(const BatchWriter::Report& report, std::chrono::nanoseco
   stats_.last_batch = took;
 }
 
-void TileStore::read_ahead(const BlockWindow& window) {
+void BlockStore::read_ahead(const BlockWindow& window) {
   next_cache_.clear();
   std::optional<Error> error;
   VoxelBlock block;
