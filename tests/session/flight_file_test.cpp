@@ -181,7 +181,7 @@ TEST_F(FlightFile, may_not_be_an_input_nor_replace_what_is_no_map) {
   EXPECT_THAT(complaint("diary.txt", true), HasSubstr("no Swiftlet map"));
 }
 
-TEST_F(FlightFile, is_marked_without_harm_to_its_seal) {
+TEST_F(FlightFile, is_marked_without_harm_to_its_checksum) {
   write_map(folder_ / "a.swl", kUnderWay);
   ASSERT_TRUE(mark_map(folder_ / "a.swl", {{std::string(kFlightKey), std::string(kSavedWhole)}}));
   ASSERT_TRUE(mark_map(folder_ / "a.swl", {{"a new line", "its value"}, {"another", ""}}));

@@ -50,7 +50,7 @@ struct Conversation {
   Time now = Time{} + 1h;
 };
 
-TEST(PageViewer, brings_a_client_to_exactly_the_map_and_seals_it) {
+TEST(PageViewer, brings_a_client_to_exactly_the_map_and_proves_it) {
   test::Random random;
   RandomFlight flight(random);
   MapWatch watch(flight.feed);
@@ -63,7 +63,7 @@ TEST(PageViewer, brings_a_client_to_exactly_the_map_and_seals_it) {
   }
   pair.exchange_all();
   EXPECT_EQ(pair.digest(), watch.map().digest()) << random.repeat();
-  EXPECT_EQ(pair.client.seal, watch.map().digest()) << random.repeat();
+  EXPECT_EQ(pair.client.checksum, watch.map().digest()) << random.repeat();
   EXPECT_EQ(pair.client.frame_numbers.size(), 80U);
 }
 
@@ -120,7 +120,7 @@ TEST(PageViewer, keeps_to_the_bandwidth_and_still_completes_the_map) {
   pair.say({4, 0, 0, 0}, {kRate});
   pair.viewer->saw(look);
   const Time start = pair.now;
-  while (!pair.client.seal) {
+  while (!pair.client.checksum) {
     pair.exchange_all();
     pair.now += 10ms;
     const double passed_s = std::chrono::duration<double>(pair.now - start).count();

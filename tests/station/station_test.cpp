@@ -36,13 +36,13 @@ class RunningStation : public ServedFlight {
   }
   /// Reads until the client has been told that it holds the whole map, and does.
   static void expect_complete(RawSocket& socket, WireReader& client) {
-    client.seal.reset();
-    while (!client.seal) {
+    client.checksum.reset();
+    while (!client.checksum) {
       const auto [opcode, message] = socket.next_message();
       ASSERT_NE(opcode, -1) << "the server has closed the connection";
       if (opcode == 2) client.read(message);
     }
-    EXPECT_EQ(client.digest(small_facts().header.scale.thresholds), *client.seal);
+    EXPECT_EQ(client.digest(small_facts().header.scale.thresholds), *client.checksum);
   }
 };
 

@@ -20,7 +20,7 @@ class WireReader {
  public:
   std::map<BlockIndex, VoxelBlock> blocks;
   std::vector<std::uint32_t> frame_numbers;
-  std::optional<MapDigest> seal;
+  std::optional<MapDigest> checksum;
   std::uint32_t next_sequence = 0;
   std::uint32_t pending = 0;
   std::size_t bytes = 0;
@@ -50,10 +50,10 @@ class WireReader {
       case MessageType::kStatus:
         pending = at<std::uint32_t>(message, 84);
         return;
-      case MessageType::kSeal:
-        seal = MapDigest{at<std::uint32_t>(message, 20), at<std::uint32_t>(message, 24),
-                         at<std::uint32_t>(message, 28), at<std::uint32_t>(message, 32),
-                         at<std::uint32_t>(message, 36)};
+      case MessageType::kChecksum:
+        checksum = MapDigest{at<std::uint32_t>(message, 20), at<std::uint32_t>(message, 24),
+                             at<std::uint32_t>(message, 28), at<std::uint32_t>(message, 32),
+                             at<std::uint32_t>(message, 36)};
         return;
     }
     ADD_FAILURE() << "a message of unknown type " << int{message[0]};

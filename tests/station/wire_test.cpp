@@ -92,8 +92,8 @@ TEST(Wire, status_is_the_golden_file) {
   expect_golden("status.bin", status_message({19, 3}, status));
 }
 
-TEST(Wire, seal_is_the_golden_file) {
-  expect_golden("seal.bin", seal_message({20, 3}, 99, golden_map().digest()));
+TEST(Wire, checksum_is_the_golden_file) {
+  expect_golden("checksum.bin", checksum_message({20, 3}, 99, golden_map().digest()));
 }
 
 TEST(Wire, a_source_whose_name_is_no_text_does_not_break_the_hello) {

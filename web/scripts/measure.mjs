@@ -30,7 +30,7 @@ async function memory_mb() {
 await page.addInitScript(() => {
   const start_ms = performance.now();
   const timer = setInterval(() => {
-    if (!(window.swiftlet?.world.sealedFrame >= 0)) return;
+    if (!(window.swiftlet?.world.confirmedFrame >= 0)) return;
     window.whole_ms = performance.now() - start_ms;
     clearInterval(timer);
   }, 5);

@@ -36,8 +36,8 @@ const link = new Link(socket.href, {
     world.start(hello);
   },
   message: (message) => {
-    const {sealed, isRight} = world.apply(message);
-    if (sealed) link.sealed(isRight);
+    const {confirmed, isRight} = world.apply(message);
+    if (confirmed) link.confirmed(isRight);
     if (message.type === 'frames' && world.hello) {
       status.framesCame(message.frames.length, performance.now());
       events.frames(message.frames, world.hello);

@@ -134,16 +134,16 @@ Status mark_map(const fs::path& path, const MapMeta& lines) {
   if (!file) return forward_error(std::move(file));
   auto meta = file->meta();
   if (!meta) return forward_error(std::move(meta));
-  auto seal = file->seal();
-  if (!seal) return forward_error(std::move(seal));
+  auto checksum = file->checksum();
+  if (!checksum) return forward_error(std::move(checksum));
   if (auto begun = file->begin(); !begun) return begun;
   for (const auto& [key, value] : lines) {
     if (const auto old = meta->find(key); old != meta->end())
-      seal->meta_digest -= meta_checksum(key, old->second);
-    seal->meta_digest += meta_checksum(key, value);
+      checksum->meta_digest -= meta_checksum(key, old->second);
+    checksum->meta_digest += meta_checksum(key, value);
     if (auto put = file->put_meta(key, value); !put) return put;
   }
-  if (auto put = file->put_seal(*seal); !put) return put;
+  if (auto put = file->put_checksum(*checksum); !put) return put;
   if (auto done = file->commit(); !done) return done;
   return file->finish();
 }

@@ -65,14 +65,14 @@ std::optional<MapState> state_of(const fs::path& path, bool had_log) {
   auto file = MapFile::open_to_read(path);
   if (!file) return std::nullopt;
   const auto meta = file->meta();
-  const auto seal = file->seal();
-  if (!meta || !seal) return std::nullopt;
+  const auto checksum = file->checksum();
+  if (!meta || !checksum) return std::nullopt;
   const auto flight = meta->find(std::string(kFlightKey));
   const auto replaces = meta->find(std::string(kReplacesKey));
   const bool is_told = flight != meta->end();
   MapState state;
   state.is_cut_off = is_told ? flight->second == kUnderWay : had_log;
-  state.is_empty = seal->blocks == 0;
+  state.is_empty = checksum->blocks == 0;
   state.start = start_of(*meta, path);
   if (is_told && flight->second == kSavedWhole && replaces != meta->end())
     state.replaces = replaces->second;

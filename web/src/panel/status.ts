@@ -81,15 +81,15 @@ export class StatusPanel {
   #sync(): void {
     const out = element('sync');
     const pending = this.world.status?.pending ?? 0;
-    const isSealed = this.world.sealedFrame >= 0 && pending === 0;
+    const isConfirmed = this.world.confirmedFrame >= 0 && pending === 0;
     if (this.link.state !== 'open') {
       out.dataset.sync = 'behind';
       out.textContent = this.world.hello ? `as of frame ${grouped(this.world.status?.frame ?? 0)}` : '–';
       return;
     }
-    out.dataset.sync = isSealed ? 'equal' : 'behind';
+    out.dataset.sync = isConfirmed ? 'equal' : 'behind';
     const whole = this.world.status?.state === 'saved' ? 'equals the saved file' : 'equals the mapper’s';
-    out.textContent = isSealed ? whole : `${grouped(pending)} blocks behind`;
+    out.textContent = isConfirmed ? whole : `${grouped(pending)} blocks behind`;
   }
 
   #banner(state: PageState, now_ms: number): void {

@@ -125,7 +125,7 @@ export class Viewer {
     this.#last_ms = now_ms;
     // Blocks are joined ten times a second at most: the eye sees no more of a growing map. While the map has not come
     // whole for the first time, taking it is worth more than drawing its parts.
-    const isWhole = this.world.sealedFrame >= 0;
+    const isWhole = this.world.confirmedFrame >= 0;
     const pause_ms = isWhole ? 100 : 400;
     const sinceDraw_ms = now_ms - this.#lastDraw_ms;
     this.#drawTook_ms ??= sinceDraw_ms; // the browser calls again when it is done

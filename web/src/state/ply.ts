@@ -9,7 +9,7 @@ export function occupiedAsPly(world: World): Blob {
   const count = world.digest.occupied;
   const header = `ply
 format binary_little_endian 1.0
-comment occupied cells of a Swiftlet map, ${voxel_m} m; frame ${world.sealedFrame}
+comment occupied cells of a Swiftlet map, ${voxel_m} m; frame ${world.confirmedFrame}
 element vertex ${count}
 property float x
 property float y

@@ -36,7 +36,7 @@ export class World {
   frames: FrameRecord[] = [];
   track: Vec3[] = []; // where the camera was [m, world]
   digest: Digest = {blocks: 0, occupied: 0, free: 0, hashA: 0, hashB: 0};
-  sealedFrame = -1; // the map was exactly the server's at this frame
+  confirmedFrame = -1; // the map was exactly the server's at this frame
   revision = 0; // counts changes of blocks
   readonly blocks = new Map<number, Block>();
   readonly changed = new Set<number>(); // keys, for whoever draws; they clear it
@@ -53,8 +53,8 @@ export class World {
     }
   }
 
-  /// Whether the message was a seal, and the map is what it says.
-  apply(message: ServerMessage): {sealed: boolean; isRight: boolean} {
+  /// Whether the message was a checksum, and the map is what it says.
+  apply(message: ServerMessage): {confirmed: boolean; isRight: boolean} {
     switch (message.type) {
       case 'blocks':
         if (message.clearsFirst) this.clear();
@@ -67,13 +67,13 @@ export class World {
       case 'status':
         this.status = message;
         break;
-      case 'seal': {
+      case 'checksum': {
         const isRight = (Object.keys(this.digest) as (keyof Digest)[]).every((k) => this.digest[k] === message.digest[k]);
-        if (isRight) this.sealedFrame = message.frame;
-        return {sealed: true, isRight};
+        if (isRight) this.confirmedFrame = message.frame;
+        return {confirmed: true, isRight};
       }
     }
-    return {sealed: false, isRight: true};
+    return {confirmed: false, isRight: true};
   }
 
   clear(): void {
@@ -81,7 +81,7 @@ export class World {
     this.blocks.clear();
     this.layers.clear();
     this.digest = {blocks: 0, occupied: 0, free: 0, hashA: 0, hashB: 0};
-    this.sealedFrame = -1;
+    this.confirmedFrame = -1;
     ++this.revision;
   }
 

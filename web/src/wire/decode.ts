@@ -36,7 +36,7 @@ function decodeUnguarded(data: ArrayBuffer): ServerMessage | null {
       return {type: 'status', ...header, ...readStatus(view)};
     case 4:
       return {
-        type: 'seal',
+        type: 'checksum',
         ...header,
         frame: Number(view.getBigUint64(12, true)),
         digest: {

@@ -26,7 +26,7 @@ export class Link {
   state: LinkState = 'connecting';
   bytes = 0;
   gaps = 0;
-  seals = 0;
+  checksums = 0;
   retryAt_ms = 0;
   error = '';
   heardAt_ms = 0; // when the last message came, or the connection was begun
@@ -72,10 +72,10 @@ export class Link {
     this.#send(encode.rate(bytesPerSecond));
   }
 
-  /// The map here is (not) what the last seal says. What is being sent again gets some time to arrive.
-  sealed(isRight: boolean): void {
+  /// The map here is (not) what the last checksum says. What is being sent again gets some time to arrive.
+  confirmed(isRight: boolean): void {
     if (isRight) {
-      ++this.seals;
+      ++this.checksums;
       this.#wrongSince_ms = 0;
       return;
     }

@@ -99,10 +99,10 @@ export interface Digest {
   hashB: number;
 }
 
-export interface Seal extends Header {
-  type: 'seal';
+export interface Checksum extends Header {
+  type: 'checksum';
   frame: number;
   digest: Digest;
 }
 
-export type ServerMessage = Blocks | Frames | StatusMessage | Seal;
+export type ServerMessage = Blocks | Frames | StatusMessage | Checksum;

@@ -126,7 +126,7 @@ it('waits for the first pose that can be trusted', async () => {
 async function flySmall(): Promise<void> {
   await fly(`${scene('small.yaml', 'camera: { max_range_m: 16, width_px: 212, height_px: 120 }')}?noise=off`);
   await open(link!.url);
-  await until(page, () => window.swiftlet.world.sealedFrame >= 60, 0);
+  await until(page, () => window.swiftlet.world.confirmedFrame >= 60, 0);
   await says('#state', 'Flying');
 }
 
@@ -149,9 +149,9 @@ it('says that the link is silent, then lost, and comes back when it speaks again
   await lookAt('silent', ['phone']);
   await says('#banner', 'Link lost');
   await lookAt('lost');
-  const seals = await page.evaluate(() => window.swiftlet.link.seals);
+  const checksums = await page.evaluate(() => window.swiftlet.link.checksums);
   link!.speak();
-  await until(page, (before) => window.swiftlet.link.seals > before, seals);
+  await until(page, (before) => window.swiftlet.link.checksums > before, checksums);
   await says('#state', 'Flying');
 });
 

@@ -40,15 +40,15 @@ const knowledge = () =>
   page.evaluate(() => {
     const {world, link, viewer} = window.swiftlet;
     return {
-      digest: world.digest, sealed: world.sealedFrame, state: world.status?.state, gaps: link.gaps, seals: link.seals,
+      digest: world.digest, confirmed: world.confirmedFrame, state: world.status?.state, gaps: link.gaps, checksums: link.checksums,
       bytes: link.bytes, calls: viewer.renderer.info.render.calls, drawn: viewer.occupied.count, track: world.track.length,
     };
   });
 function until<T>(isTrue: (argument: T) => boolean, argument: T): Promise<void> {
   return untilOn(page, isTrue, argument);
 }
-async function sealed(frame: number): Promise<void> {
-  await until((n) => window.swiftlet.world.sealedFrame >= n, frame);
+async function confirmed(frame: number): Promise<void> {
+  await until((n) => window.swiftlet.world.confirmedFrame >= n, frame);
 }
 
 beforeAll(async () => {
@@ -67,7 +67,7 @@ afterAll(async () => {
 it('shows a flight, cell for cell, at 1 Mbit/s and through lost packets, and fetches nothing from elsewhere', async () => {
   const program = await start(flight);
   await open(program.url);
-  await sealed(5);
+  await confirmed(5);
   await page.selectOption('#limit', '125000');
   await until(() => window.swiftlet.world.status?.rateLimit === 125_000, 0);
   const start_ms = performance.now();
@@ -75,7 +75,7 @@ it('shows a flight, cell for cell, at 1 Mbit/s and through lost packets, and fet
   await page.evaluate(() => window.swiftlet.link.dropNext(4));
   await program.says(/frames +\d+ in/);
   await until(() => window.swiftlet.world.status?.state === 'over', 0);
-  await until(() => window.swiftlet.world.sealedFrame === window.swiftlet.world.status?.frame, 0);
+  await until(() => window.swiftlet.world.confirmedFrame === window.swiftlet.world.status?.frame, 0);
   const live = await knowledge();
   const passed_s = (performance.now() - start_ms) / 1000;
   expect(live.bytes - before).toBeLessThan(125_000 * (passed_s + 0.1) + 40_000);
@@ -94,7 +94,7 @@ it('shows a flight, cell for cell, at 1 Mbit/s and through lost packets, and fet
   await page.close();
   faults.length = 0; // the link was lost
   await open(saved.url);
-  await sealed(0);
+  await confirmed(0);
   expect((await knowledge()).digest).toEqual(live.digest);
   await page.locator('#state', {hasText: 'Saved map'}).waitFor();
 });
@@ -107,7 +107,7 @@ it('slice, height and inspector tell what the map holds', async () => {
   const program = await start(['view', map, '--listen', '127.0.0.1:0']);
   await open(program.url);
   await page.setViewportSize({width: 1100, height: 1100}); // a slice of several pixels a cell
-  await sealed(0);
+  await confirmed(0);
   await until(() => window.swiftlet.viewer.occupied.count > 0, 0);
 
   // The rail: from its middle to near its upper end.
@@ -177,7 +177,7 @@ it('slice, height and inspector tell what the map holds', async () => {
 it('hands out the map file, which holds the same cells', async () => {
   const program = await start(['view', map, '--listen', '127.0.0.1:0', '--token', 'only-for-me']);
   await open(program.url);
-  await sealed(0);
+  await confirmed(0);
   await page.keyboard.press('d');
   const [swl] = await Promise.all([page.waitForEvent('download'), page.click('#get-swl')]);
   expect(swl.suggestedFilename()).toBe('swiftlet.swl');
@@ -200,14 +200,14 @@ it('hands out the map file, which holds the same cells', async () => {
   const again = await start(['view', got, '--listen', '127.0.0.1:0']);
   await page.close();
   await open(again.url);
-  await sealed(0);
+  await confirmed(0);
   expect((await knowledge()).digest).toEqual(before);
 });
 
 it('says why there is no map file', async () => {
   const program = await start(['view', map, '--listen', '127.0.0.1:0']);
   await open(program.url);
-  await sealed(0);
+  await confirmed(0);
   await program.end('SIGKILL');
   await page.keyboard.press('d');
   await page.click('#get-swl');
@@ -218,7 +218,7 @@ it('says why there is no map file', async () => {
 it('comes back by itself when the server does', async () => {
   const first = await start(['view', map, '--listen', '127.0.0.1:0']);
   await open(first.url);
-  await sealed(0);
+  await confirmed(0);
   const before = await knowledge();
   await page.selectOption('#limit', '125000');
   const port = first.port;
@@ -226,7 +226,7 @@ it('comes back by itself when the server does', async () => {
   await page.locator('#banner[data-state=lost]').waitFor({state: 'visible'});
   expect((await knowledge()).digest).toEqual(before.digest); // it still shows what it knew
   await start(['view', map, '--listen', `127.0.0.1:${port}`]);
-  await until((n) => window.swiftlet.link.seals > n, before.seals);
+  await until((n) => window.swiftlet.link.checksums > n, before.checksums);
   expect((await knowledge()).digest).toEqual(before.digest);
   await until(() => window.swiftlet.world.status?.rateLimit === 125_000, 0); // remembered
   await page.locator('#banner').waitFor({state: 'hidden'});
@@ -236,12 +236,12 @@ it('comes back by itself when the server does', async () => {
 it('pauses and steps', async () => {
   const program = await start(['view', map, '--listen', '127.0.0.1:0']);
   await open(program.url);
-  await sealed(0);
+  await confirmed(0);
   await page.keyboard.press(' ');
   await page.locator('#banner[data-state=paused]').waitFor({state: 'visible'});
-  const {seals} = await knowledge();
+  const {checksums} = await knowledge();
   await page.keyboard.press('.');
-  await until((n) => window.swiftlet.link.seals === n + 1, seals);
+  await until((n) => window.swiftlet.link.checksums === n + 1, checksums);
   await page.keyboard.press(' ');
   await page.locator('#banner').waitFor({state: 'hidden'});
 });
@@ -256,5 +256,5 @@ it('shows nothing to who has no token', async () => {
   await page.close();
   expect(faults.splice(0).filter((fault) => !fault.includes('401'))).toEqual([]);
   await open(program.url);
-  await sealed(0);
+  await confirmed(0);
 });

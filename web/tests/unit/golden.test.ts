@@ -8,7 +8,7 @@ import {describe, expect, it} from 'vitest';
 
 import {World} from '../../src/state/world';
 import {decode, decodeHello, WireError} from '../../src/wire/decode';
-import type {Blocks, Frames, Hello, Seal, StatusMessage} from '../../src/wire/messages';
+import type {Blocks, Frames, Hello, Checksum, StatusMessage} from '../../src/wire/messages';
 
 function golden(name: string): Buffer {
   return readFileSync(new URL(`../../../tests/golden/station/${name}`, import.meta.url));
@@ -59,20 +59,20 @@ describe('the golden files', () => {
     });
   });
 
-  it('the seal is that of the blocks', () => {
+  it('the checksum is that of the blocks', () => {
     const world = new World();
     world.start(hello());
-    expect(world.apply(decode(bytes('blocks.bin'))!).sealed).toBe(false);
-    const seal = decode(bytes('seal.bin')) as Seal;
-    expect(world.digest).toEqual(seal.digest);
-    expect(world.apply(seal)).toEqual({sealed: true, isRight: true});
-    expect(world.sealedFrame).toBe(99);
+    expect(world.apply(decode(bytes('blocks.bin'))!).confirmed).toBe(false);
+    const checksum = decode(bytes('checksum.bin')) as Checksum;
+    expect(world.digest).toEqual(checksum.digest);
+    expect(world.apply(checksum)).toEqual({confirmed: true, isRight: true});
+    expect(world.confirmedFrame).toBe(99);
   });
 });
 
 describe('what is no message', () => {
   it('is refused whatever it is cut to', () => {
-    for (const name of ['blocks.bin', 'frames.bin', 'status.bin', 'seal.bin']) {
+    for (const name of ['blocks.bin', 'frames.bin', 'status.bin', 'checksum.bin']) {
       const whole = bytes(name);
       for (let size = 0; size < whole.byteLength; ++size) {
         expect(() => decode(whole.slice(0, size)), `${name} cut to ${size}`).toThrow(WireError);
@@ -80,12 +80,12 @@ describe('what is no message', () => {
     }
   });
   it('of another version is refused by name', () => {
-    const other = bytes('seal.bin');
+    const other = bytes('checksum.bin');
     new DataView(other).setUint8(1, 2);
     expect(() => decode(other)).toThrow('the server speaks version 2, this page 1');
   });
   it('of a type that this page does not know is left out', () => {
-    const other = bytes('seal.bin');
+    const other = bytes('checksum.bin');
     new DataView(other).setUint8(0, 99);
     expect(decode(other)).toBeNull();
   });

@@ -31,7 +31,7 @@ class PageViewer final : public Viewer {
     } else {
       queue_.mark(look.changed, watch_.map());
     }
-    is_sealed_ = is_sealed_ && look.changed.empty() && !look.is_new_world;
+    is_confirmed_ = is_confirmed_ && look.changed.empty() && !look.is_new_world;
     for (const FrameReport& frame : look.frames) frames_.push_back(frame);
     while (frames_.size() > kFramesKept) frames_.pop_front();
   }
@@ -57,13 +57,13 @@ class PageViewer final : public Viewer {
     if (!message) return forward_error(std::move(message));
     if (const auto* resend = std::get_if<Resend>(&*message)) {
       queue_.resend(resend->first, resend->last, watch_.map());
-      is_sealed_ = false;
+      is_confirmed_ = false;
     } else if (std::holds_alternative<SendAll>(*message)) {
       queue_.start_again(watch_.map());
-      is_sealed_ = false;
+      is_confirmed_ = false;
     } else if (const auto* pace = std::get_if<SetPace>(&*message)) {
       pace_ = pace->pace;
-      is_sealed_ = is_sealed_ && pace_ != Pace::kStep;  // a step ends with a seal
+      is_confirmed_ = is_confirmed_ && pace_ != Pace::kStep;  // a step ends with a checksum
     } else if (const auto* rate = std::get_if<SetRate>(&*message)) {
       limit(rate->bytes_per_s, now);
     }
@@ -87,10 +87,10 @@ class PageViewer final : public Viewer {
     if (!frames_.empty() && (is_frames_turn || queue_.is_up_to_date())) return next_frames();
     if (!queue_.is_up_to_date()) return next_blocks();
     if (!frames_.empty()) return next_frames();
-    if (is_sealed_) return {};
-    is_sealed_ = true;
+    if (is_confirmed_) return {};
+    is_confirmed_ = true;
     if (pace_ == Pace::kStep) pace_ = Pace::kHold;
-    return seal_message(header(), watch_.map().frame_count(), watch_.map().digest());
+    return checksum_message(header(), watch_.map().frame_count(), watch_.map().digest());
   }
 
   Bytes next_frames() {
@@ -129,7 +129,7 @@ class PageViewer final : public Viewer {
   Time last_status_{};
   Pace pace_ = Pace::kFlow;
   bool needs_hello_ = true;
-  bool is_sealed_ = false;
+  bool is_confirmed_ = false;
   bool was_blocks_turn_ = false;
 };
 

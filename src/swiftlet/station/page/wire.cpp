@@ -121,11 +121,11 @@ Bytes status_message(const MessageHeader& header, const StatusReport& status) {
   return message;
 }
 
-Bytes seal_message(const MessageHeader& header, std::uint64_t frame_count,
-                   const MapDigest& digest) {
+Bytes checksum_message(const MessageHeader& header, std::uint64_t frame_count,
+                       const MapDigest& digest) {
   Bytes message;
   ByteWriter out(message);
-  write_header(out, MessageType::kSeal, header);
+  write_header(out, MessageType::kChecksum, header);
   out.u64(frame_count);
   out.u32(digest.blocks);
   out.u32(digest.occupied);

@@ -25,7 +25,7 @@ inline constexpr std::uint8_t kWireVersion = 1;
 using Bytes = std::vector<std::uint8_t>;
 
 /// The values are on the wire.
-enum class MessageType : std::uint8_t { kBlocks = 1, kFrames = 2, kStatus = 3, kSeal = 4 };
+enum class MessageType : std::uint8_t { kBlocks = 1, kFrames = 2, kStatus = 3, kChecksum = 4 };
 
 /// What every binary message begins with.
 struct MessageHeader {
@@ -58,8 +58,8 @@ struct StatusReport {
                                    std::span<const FrameReport> reports);
 [[nodiscard]] Bytes status_message(const MessageHeader& header, const StatusReport& status);
 /// The client has been sent all of the map as of this frame; its digest must be this.
-[[nodiscard]] Bytes seal_message(const MessageHeader& header, std::uint64_t frame_count,
-                                 const MapDigest& digest);
+[[nodiscard]] Bytes checksum_message(const MessageHeader& header, std::uint64_t frame_count,
+                                     const MapDigest& digest);
 
 /// Blocks, packed so that each message can be read without any other.
 /// Thread safety: one thread at a time.

@@ -77,7 +77,7 @@ Status decode_row(const BlockRow& row, BlockCodec& codec, VoxelBlock& out) {
 Expected<MapMeta> MapFile::meta() {
   auto lines = database_.prepare("SELECT key, value FROM meta");
   if (!lines) return forward_error(std::move(lines));
-  auto sums = seal();
+  auto sums = checksum();
   if (!sums) return forward_error(std::move(sums));
   MapMeta meta;
   std::uint64_t digest = 0;
@@ -96,13 +96,15 @@ Expected<MapMeta> MapFile::meta() {
               "the description of the map (table 'meta') is damaged");
 }
 
-Expected<MapSeal> MapFile::seal() {
+Expected<MapChecksum> MapFile::checksum() {
   auto line = database_.prepare("SELECT blocks, block_digest, meta_digest FROM seal WHERE id = 0");
   if (!line) return forward_error(std::move(line));
   auto has_row = line->step();
   if (!has_row) return forward_error(std::move(has_row));
-  if (!*has_row) return fail(ErrorCode::kCorruptInput, path_.string(), "the map has no seal");
-  return MapSeal{line->integer(0), as_unsigned(line->integer(1)), as_unsigned(line->integer(2))};
+  if (!*has_row)
+    return fail(ErrorCode::kCorruptInput, path_.string(), "the map has no checksum (table 'seal')");
+  return MapChecksum{line->integer(0), as_unsigned(line->integer(1)),
+                     as_unsigned(line->integer(2))};
 }
 
 Expected<bool> MapFile::read(const BlockIndex& index, const VisitRow& visit) {
@@ -170,10 +172,10 @@ Status MapFile::put_meta(const std::string& key, const std::string& value) {
   return put_meta_.bind(1, key).bind(2, value).run();
 }
 
-Status MapFile::put_seal(const MapSeal& seal) {
-  return put_seal_.bind(1, seal.blocks)
-      .bind(2, as_signed(seal.block_digest))
-      .bind(3, as_signed(seal.meta_digest))
+Status MapFile::put_checksum(const MapChecksum& checksum) {
+  return put_checksum_.bind(1, checksum.blocks)
+      .bind(2, as_signed(checksum.block_digest))
+      .bind(3, as_signed(checksum.meta_digest))
       .run();
 }
 

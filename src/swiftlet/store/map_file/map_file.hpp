@@ -47,11 +47,11 @@ struct BlockRow {
 
 /// Sums over all rows, so that a row that vanished or appeared is noticed: checksums added modulo
 /// 2^64, which makes the order of writing indifferent.
-struct MapSeal {
+struct MapChecksum {
   std::int64_t blocks = 0;
   std::uint64_t block_digest = 0;
   std::uint64_t meta_digest = 0;
-  friend bool operator==(const MapSeal&, const MapSeal&) = default;
+  friend bool operator==(const MapChecksum&, const MapChecksum&) = default;
 };
 
 /// The tables of a map file: every SQL sentence that Swiftlet speaks stands in map_file.cpp and
@@ -99,7 +99,7 @@ class MapFile {
   [[nodiscard]] Status hold_view();
   void let_go_of_view() { rollback(); }
   [[nodiscard]] Expected<MapMeta> meta();
-  [[nodiscard]] Expected<MapSeal> seal();
+  [[nodiscard]] Expected<MapChecksum> checksum();
   /// Calls visit(row) if the block is stored; true if it was.
   using VisitRow = std::function<Status(const BlockRow&)>;
   [[nodiscard]] Expected<bool> read(const BlockIndex& index, const VisitRow& visit);
@@ -118,7 +118,7 @@ class MapFile {
   [[nodiscard]] Status put(const BlockRow& row);
   [[nodiscard]] Status erase(const BlockIndex& index);
   [[nodiscard]] Status put_meta(const std::string& key, const std::string& value);
-  [[nodiscard]] Status put_seal(const MapSeal& seal);
+  [[nodiscard]] Status put_checksum(const MapChecksum& checksum);
   /// Calls visit(row) for the `count` blocks that were touched longest ago; without their data.
   [[nodiscard]] Status oldest(std::int64_t count, const VisitRow& visit);
   /// Pages of the file that are in use. REQUIRES: opened to write.
@@ -137,7 +137,7 @@ class MapFile {
   MapLock lock_;  // before the database: it must go last
   sqlite::Database database_;
   // Statements after the database: they must go first.
-  sqlite::Statement read_, all_, put_, erase_, put_meta_, put_seal_, oldest_, page_count_,
+  sqlite::Statement read_, all_, put_, erase_, put_meta_, put_checksum_, oldest_, page_count_,
       free_pages_;
 };
 

@@ -150,7 +150,7 @@ Status MapFile::prepare_writing() {
       {{&put_, "INSERT OR REPLACE INTO blocks VALUES(?1, ?2, ?3, ?4, ?5, ?6)"},
        {&erase_, "DELETE FROM blocks WHERE z = ?1 AND y = ?2 AND x = ?3"},
        {&put_meta_, "INSERT OR REPLACE INTO meta VALUES(?1, ?2)"},
-       {&put_seal_,
+       {&put_checksum_,
         "UPDATE seal SET blocks = ?1, block_digest = ?2, meta_digest = ?3 WHERE id = 0"},
        {&oldest_,
         "SELECT z, y, x, touched, 0, NULL FROM blocks ORDER BY touched, z, y, x LIMIT ?1"},
@@ -159,7 +159,7 @@ Status MapFile::prepare_writing() {
 }
 
 void MapFile::close() {
-  for (Statement* statement : {&read_, &all_, &put_, &erase_, &put_meta_, &put_seal_, &oldest_,
+  for (Statement* statement : {&read_, &all_, &put_, &erase_, &put_meta_, &put_checksum_, &oldest_,
                                &page_count_, &free_pages_}) {
     *statement = Statement{};
   }

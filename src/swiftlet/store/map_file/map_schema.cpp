@@ -28,7 +28,7 @@ constexpr const char* kBlocksTable =
     "PRIMARY KEY(z, y, x)) WITHOUT ROWID";
 constexpr const char* kMetaTable =
     "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID";
-constexpr const char* kSealTable =
+constexpr const char* kChecksumTable =
     "CREATE TABLE seal(id INTEGER PRIMARY KEY, blocks INTEGER NOT NULL, "
     "block_digest INTEGER NOT NULL, meta_digest INTEGER NOT NULL)";
 
@@ -39,7 +39,7 @@ void remove_quietly(const fs::path& path) {
   fs::remove(path, ignored);
 }
 
-/// The rows of `meta`, and the seal over them.
+/// The rows of `meta`, and the checksum over them.
 Status write_description(const Database& database, const MapMeta& meta) {
   auto line = database.prepare("INSERT INTO meta VALUES(?1, ?2)");
   if (!line) return forward_error(std::move(line));
@@ -48,9 +48,9 @@ Status write_description(const Database& database, const MapMeta& meta) {
     if (auto written = line->bind(1, key).bind(2, value).run(); !written) return written;
     digest += meta_checksum(key, value);
   }
-  auto seal = database.prepare("INSERT INTO seal VALUES(0, 0, 0, ?1)");
-  if (!seal) return forward_error(std::move(seal));
-  return seal->bind(1, static_cast<std::int64_t>(digest)).run();
+  auto checksum = database.prepare("INSERT INTO seal VALUES(0, 0, 0, ?1)");
+  if (!checksum) return forward_error(std::move(checksum));
+  return checksum->bind(1, static_cast<std::int64_t>(digest)).run();
 }
 
 /// A map of no blocks, as bytes: it takes its name whole, and no journal lies beside it meanwhile.
@@ -61,7 +61,7 @@ Expected<std::vector<unsigned char>> empty_map(const fs::path& path, const MapMe
       fmt::format("PRAGMA page_size = {}; PRAGMA application_id = {}; PRAGMA user_version = {}; "
                   "BEGIN; {}; {}; {}",
                   MapFile::kPageBytes, MapFile::kApplicationId, MapFile::kSchemaVersion,
-                  kBlocksTable, kMetaTable, kSealTable));
+                  kBlocksTable, kMetaTable, kChecksumTable));
   if (!made) return forward_error(std::move(made));
   if (auto written = write_description(*database, meta); !written) {
     return forward_error(std::move(written));
@@ -213,7 +213,7 @@ Status MapFile::check_identity() const {
     return fail(ErrorCode::kCorruptInput, path_.string(), "the map has no valid version");
   }
   for (const auto& [name, sql] : {std::pair{"blocks", kBlocksTable}, std::pair{"meta", kMetaTable},
-                                  std::pair{"seal", kSealTable}}) {
+                                  std::pair{"seal", kChecksumTable}}) {
     if (auto good = check_table(database_, name, sql, path_); !good) return good;
   }
   return Done{};

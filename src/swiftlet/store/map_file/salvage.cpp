@@ -66,7 +66,7 @@ class Finder {
   std::unordered_set<BlockIndex, BlockHash> damaged_;
   std::vector<SalvageReport::Gap> gaps_;
   MapMeta meta_;
-  std::optional<MapSeal> seal_;
+  std::optional<MapChecksum> checksum_;
 
  private:
   void look_at(const MapPages::Record& record) {
@@ -78,8 +78,8 @@ class Finder {
       meta_.insert_or_assign(std::string(c[0].text()), std::string(c[1].text()));
     } else if (c.size() == 4 && c[0].kind == Kind::kNull && c[1].kind == Kind::kInteger &&
                c[2].kind == Kind::kInteger && c[3].kind == Kind::kInteger) {
-      seal_ = MapSeal{c[1].integer, static_cast<std::uint64_t>(c[2].integer),
-                      static_cast<std::uint64_t>(c[3].integer)};
+      checksum_ = MapChecksum{c[1].integer, static_cast<std::uint64_t>(c[2].integer),
+                              static_cast<std::uint64_t>(c[3].integer)};
     }
   }
 
@@ -154,7 +154,7 @@ void make_readable(MapMeta& meta, double voxel_m, const Finder& found,
 Expected<MapMeta> described(const Finder& found, const fs::path& path,
                             std::vector<std::string>& notes) {
   MapMeta meta = found.meta_;
-  const bool is_sound = found.seal_ && digest_of(meta) == found.seal_->meta_digest;
+  const bool is_sound = found.checksum_ && digest_of(meta) == found.checksum_->meta_digest;
   const auto voxel_m = number_from<double>(meta["voxel_m"]);
   if (!voxel_m || meta["voxel_m"].size() > 80 || !std::isfinite(*voxel_m) || *voxel_m <= 0.0) {
     return fail(
@@ -183,8 +183,8 @@ Status write_good(const Finder& found, const MapPages& pages, MapFile& file) {
   order.reserve(found.good_.size());
   for (const auto& [index, place] : found.good_) order.push_back(index);
   std::ranges::sort(order, {}, by_z_y_x);
-  auto seal = file.seal();
-  if (!seal) return forward_error(std::move(seal));
+  auto checksum = file.checksum();
+  if (!checksum) return forward_error(std::move(checksum));
   std::vector<std::uint8_t> data;
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i % kBatch == 0) {
@@ -196,11 +196,11 @@ Status write_good(const Finder& found, const MapPages& pages, MapFile& file) {
     const BlockRow row{order[i], place.touched, place.checksum, data};
     if (is_there && row.is_intact()) {  // else the disk gives what it did not give before
       if (auto put = file.put(row); !put) return put;
-      ++seal->blocks;
-      seal->block_digest += row.checksum;
+      ++checksum->blocks;
+      checksum->block_digest += row.checksum;
     }
     if ((i + 1) % kBatch != 0 && i + 1 != order.size()) continue;
-    if (auto sealed = file.put_seal(*seal); !sealed) return sealed;
+    if (auto written = file.put_checksum(*checksum); !written) return written;
     if (auto done = file.commit(); !done) return done;
   }
   return Done{};
@@ -211,11 +211,11 @@ SalvageReport report_of(const Finder& found, std::int64_t most_blocks) {
   report.kept = found.good_.size();
   std::uint64_t digest = 0;
   for (const auto& [index, place] : found.good_) digest += place.checksum;
-  if (found.seal_ && digest == found.seal_->block_digest) {
-    report.missing = 0;  // every one is there, whatever the seal counts
-  } else if (found.seal_ && found.seal_->blocks > static_cast<std::int64_t>(report.kept) &&
-             found.seal_->blocks <= most_blocks) {
-    report.missing = static_cast<std::uint64_t>(found.seal_->blocks) - report.kept;
+  if (found.checksum_ && digest == found.checksum_->block_digest) {
+    report.missing = 0;  // every one is there, whatever the checksum counts
+  } else if (found.checksum_ && found.checksum_->blocks > static_cast<std::int64_t>(report.kept) &&
+             found.checksum_->blocks <= most_blocks) {
+    report.missing = static_cast<std::uint64_t>(found.checksum_->blocks) - report.kept;
   }
   std::vector<BlockIndex> damaged;
   for (const BlockIndex& index : found.damaged_) {

@@ -16,18 +16,18 @@ Status fill(const std::filesystem::path& path, const BlockMap& map, std::int64_t
             MapLock lock) {
   auto file = MapFile::open_to_write(path, 0, std::move(lock));
   if (!file) return forward_error(std::move(file));
-  auto seal = file->seal();
-  if (!seal) return forward_error(std::move(seal));
+  auto checksum = file->checksum();
+  if (!checksum) return forward_error(std::move(checksum));
   if (auto begun = file->begin(); !begun) return begun;
   BlockCodec codec;
   for (const BlockIndex& index : map.sorted_blocks()) {
     BlockRow row{index, frames, 0, codec.compress(*map.find(index))};
     row.checksum = block_checksum(row.index, row.touched, row.data);
     if (auto done = file->put(row); !done) return done;
-    ++seal->blocks;
-    seal->block_digest += row.checksum;
+    ++checksum->blocks;
+    checksum->block_digest += row.checksum;
   }
-  if (auto done = file->put_seal(*seal); !done) return done;
+  if (auto done = file->put_checksum(*checksum); !done) return done;
   if (auto done = file->commit(); !done) return done;
   return file->finish();
 }

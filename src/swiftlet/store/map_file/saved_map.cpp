@@ -13,11 +13,12 @@
 namespace swiftlet {
 namespace {
 
-Status compare_seals(const MapSeal& found, const MapSeal& sealed, const std::string& where) {
-  if (found.blocks == sealed.blocks && found.block_digest == sealed.block_digest) return Done{};
+Status compare_checksums(const MapChecksum& found, const MapChecksum& written,
+                         const std::string& where) {
+  if (found.blocks == written.blocks && found.block_digest == written.block_digest) return Done{};
   return fail(ErrorCode::kCorruptInput, where,
               fmt::format("the map holds {} blocks, but {} were written or some were replaced",
-                          found.blocks, sealed.blocks));
+                          found.blocks, written.blocks));
 }
 
 }  // namespace
@@ -32,27 +33,27 @@ Expected<SavedMap> SavedMap::of(const std::filesystem::path& path, Expected<MapF
   if (auto held = file.hold_view(); !held) return forward_error(std::move(held));
   auto meta = file.meta();
   if (!meta) return forward_error(std::move(meta));
-  auto seal = file.seal();
-  if (!seal) return forward_error(std::move(seal));
-  if (seal->blocks < 0)
+  auto checksum = file.checksum();
+  if (!checksum) return forward_error(std::move(checksum));
+  if (checksum->blocks < 0)
     return fail(ErrorCode::kCorruptInput, path.string(), "the map counts less than no blocks");
   auto header = header_from(*meta, path.string());
   if (!header) return forward_error(std::move(header));
   SavedMap map;
   map.path_ = path;
   map.header_ = *header;
-  map.block_count_ = static_cast<std::uint64_t>(seal->blocks);
+  map.block_count_ = static_cast<std::uint64_t>(checksum->blocks);
   map.meta_ = std::move(*meta);
   map.file_ = std::make_unique<MapFile>(std::move(file));
   return map;
 }
 
 Status SavedMap::for_each_block(const VisitBlock& visit) const {
-  auto sealed = file_->seal();
-  if (!sealed) return forward_error(std::move(sealed));
+  auto written = file_->checksum();
+  if (!written) return forward_error(std::move(written));
   BlockCodec codec;
   VoxelBlock block;
-  MapSeal found;
+  MapChecksum found;
   auto passed = file_->for_each([&](const BlockRow& row) -> Status {
     if (const auto fault = fault_of(row, codec, block)) {
       return fail(ErrorCode::kCorruptInput, path_.string(), *fault,
@@ -63,7 +64,7 @@ Status SavedMap::for_each_block(const VisitBlock& visit) const {
     return visit(row.index, block);
   });
   if (!passed) return passed;
-  return compare_seals(found, *sealed, path_.string());
+  return compare_checksums(found, *written, path_.string());
 }
 
 Expected<std::optional<VoxelBlock>> SavedMap::find(const BlockIndex& index) const {
@@ -106,7 +107,7 @@ std::vector<Error> check_map(const std::filesystem::path& path) {
 
   BlockCodec codec;
   VoxelBlock block;
-  MapSeal found;
+  MapChecksum found;
   auto passed = file->for_each([&](const BlockRow& row) -> Status {
     if (auto fault = fault_of(row, codec, block)) add(std::move(*fault));
     ++found.blocks;
@@ -114,10 +115,10 @@ std::vector<Error> check_map(const std::filesystem::path& path) {
     return Done{};
   });
   if (!passed) faults.push_back(std::move(passed).error());
-  auto sealed = file->seal();
-  if (!sealed) {
-    faults.push_back(std::move(sealed).error());
-  } else if (auto same = compare_seals(found, *sealed, path.string()); !same) {
+  auto written = file->checksum();
+  if (!written) {
+    faults.push_back(std::move(written).error());
+  } else if (auto same = compare_checksums(found, *written, path.string()); !same) {
     faults.push_back(std::move(same).error());
   }
   file->let_go_of_view();

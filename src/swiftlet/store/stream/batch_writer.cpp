@@ -26,11 +26,11 @@ Expected<BatchWriter> BatchWriter::open(const std::filesystem::path& path, Store
   if (!file) return forward_error(std::move(file));
   auto meta = file->meta();
   if (!meta) return forward_error(std::move(meta));
-  auto seal = file->seal();
-  if (!seal) return forward_error(std::move(seal));
+  auto checksum = file->checksum();
+  if (!checksum) return forward_error(std::move(checksum));
   BatchWriter writer(std::move(*file), policy, max_bytes);
   writer.meta_ = std::move(*meta);
-  writer.seal_ = *seal;
+  writer.checksum_ = *checksum;
   return writer;
 }
 
@@ -49,7 +49,7 @@ std::size_t BatchWriter::unwritten(const MapSnapshot& window) const {
 }
 
 Expected<BatchWriter::Report> BatchWriter::write(const Content& content) {
-  const MapSeal seal = seal_;
+  const MapChecksum before = checksum_;
   const MapMeta meta = meta_;
   const std::uint64_t frames = frames_;
   const auto window = window_;
@@ -62,7 +62,7 @@ Expected<BatchWriter::Report> BatchWriter::write(const Content& content) {
   if (status) return report;
   file_.rollback();
   undo();
-  seal_ = seal;
+  checksum_ = before;
   meta_ = meta;
   frames_ = frames;
   window_ = window;
@@ -82,7 +82,7 @@ Status BatchWriter::write_all(const Content& content, Report& report) {
   MapMeta meta = content.meta == nullptr ? MapMeta{} : *content.meta;
   meta["frames"] = std::to_string(frames_);
   if (auto done = write_meta(meta); !done) return done;
-  if (auto done = file_.put_seal(seal_); !done) return done;
+  if (auto done = file_.put_checksum(checksum_); !done) return done;
   auto pages = file_.pages_in_use();
   if (!pages) return forward_error(std::move(pages));
   pages_ = *pages;
@@ -130,11 +130,11 @@ Status BatchWriter::put(const BlockIndex& index, const VoxelBlock& block, std::u
   // make_room() may have dropped the older state of this very block.
   const auto present = known_.find(index);
   if (present != known_.end() && present->second.is_stored) {
-    seal_.block_digest -= present->second.checksum;
+    checksum_.block_digest -= present->second.checksum;
   } else {
-    ++seal_.blocks;
+    ++checksum_.blocks;
   }
-  seal_.block_digest += row.checksum;
+  checksum_.block_digest += row.checksum;
   set_known(index, Known{order, row.checksum, true});
   report.written.push_back(index);
   return Done{};
@@ -147,8 +147,8 @@ Status BatchWriter::erase(const BlockIndex& index, bool forget, Report& report) 
     return fail(ErrorCode::kCorruptInput, "map", "another program has changed the map file");
   }
   Known known = found->second;
-  --seal_.blocks;
-  seal_.block_digest -= known.checksum;
+  --checksum_.blocks;
+  checksum_.block_digest -= known.checksum;
   known.is_stored = false;
   set_known(index, forget ? std::nullopt : std::optional(known));
   report.erased.push_back(index);
@@ -176,7 +176,7 @@ Status BatchWriter::make_room(Report& report) {
   for (;;) {
     auto pages = file_.pages_in_use();
     if (!pages) return forward_error(std::move(pages));
-    if (*pages <= limit || seal_.blocks == 0) return Done{};
+    if (*pages <= limit || checksum_.blocks == 0) return Done{};
     std::vector<BlockIndex> oldest;
     auto listed = file_.oldest(kOldestAtOnce, [&](const BlockRow& row) -> Status {
       oldest.push_back(row.index);
@@ -199,9 +199,9 @@ Status BatchWriter::write_meta(const MapMeta& meta) {
   for (const auto& [key, value] : meta) {
     const auto old = meta_.find(key);
     if (old != meta_.end() && old->second == value) continue;
-    if (old != meta_.end()) seal_.meta_digest -= meta_checksum(key, old->second);
+    if (old != meta_.end()) checksum_.meta_digest -= meta_checksum(key, old->second);
     if (auto done = file_.put_meta(key, value); !done) return done;
-    seal_.meta_digest += meta_checksum(key, value);
+    checksum_.meta_digest += meta_checksum(key, value);
     meta_[key] = value;
   }
   return Done{};

@@ -72,7 +72,7 @@ class BatchWriter {
   [[nodiscard]] bool holds(const BlockIndex& index) const;
   /// Blocks of the window whose newest state has not been written.
   [[nodiscard]] std::size_t unwritten(const MapSnapshot& window) const;
-  [[nodiscard]] std::int64_t blocks() const { return seal_.blocks; }
+  [[nodiscard]] std::int64_t blocks() const { return checksum_.blocks; }
   /// Frames that the newest snapshot in the file had seen.
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
   /// What the file takes on disk, without its write-ahead log and pages free for reuse [bytes].
@@ -109,7 +109,7 @@ class BatchWriter {
   BlockCodec codec_;
   std::unordered_map<BlockIndex, Known, BlockHash> known_;
   MapMeta meta_;
-  MapSeal seal_;
+  MapChecksum checksum_;
   std::uint64_t frames_ = 0;
   std::int64_t pages_ = 0;
   std::optional<BlockWindow> window_;  // of the newest snapshot
