@@ -26,7 +26,7 @@ const MapWatch& small_map() {
     block.clear();
     block.cells[0] = 200;
     for (std::int32_t i = 0; i < 100; ++i) map.put({i * 700, 0, -i}, block, 1);
-    return MapWatch(WorldFacts{}, std::move(map));
+    return MapWatch(MapInfo{}, std::move(map));
   }();
   return kWatch;
 }

@@ -22,12 +22,12 @@ constexpr std::size_t kBudget_bytes = 3500;
 class SlowDownloads : public ::testing::Test {
  protected:
   static MapWatch small_world() {
-    MapMirror map(small_facts().header);
+    MapMirror map(small_info().header);
     VoxelBlock block;
     block.clear();
     block.cells[0] = 200;
     map.put({0, 0, 0}, block, 1);
-    return {small_facts(), std::move(map)};
+    return {small_info(), std::move(map)};
   }
   /// What somebody gets who asks two seconds after the one before.
   Expected<SharedBytes> ask() {

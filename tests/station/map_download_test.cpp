@@ -35,7 +35,7 @@ std::vector<std::uint8_t> plain_file(const BlockMap& map) {
 }
 
 MapDigest digest_of(std::string_view file) {
-  MapMirror map(small_facts().header);
+  MapMirror map(small_info().header);
   for (std::size_t at = 8; at < file.size(); at += sizeof(BlockIndex) + kBlockVoxels) {
     BlockIndex index;
     VoxelBlock block;

@@ -79,7 +79,7 @@ TEST(MapWatch, begins_anew_with_a_new_world) {
   EXPECT_GT(watch.map().digest().blocks, 0U);
 
   auto other = *RollingMap::create({});
-  first.feed.begin_world(other.reader(), small_facts());
+  first.feed.begin_world(other.reader(), small_info());
   FrameReport report;
   report.number = 7;
   first.feed.report(report);
@@ -96,7 +96,7 @@ TEST(MapWatch, begins_anew_with_a_new_world) {
 TEST(MapWatch, counts_frames_by_verdict_and_keeps_what_was_lost) {
   LiveFeed feed;
   auto map = *RollingMap::create({});
-  feed.begin_world(map.reader(), small_facts());
+  feed.begin_world(map.reader(), small_info());
   MapWatch watch(feed);
   FrameReport report;
   for (const int verdict : {0, 1, 1, 77}) {  // a verdict without a name is not counted

@@ -162,13 +162,13 @@ TEST(PageViewer, a_slow_client_gets_fewer_updates_and_never_an_older_map) {
 }
 
 TEST(PageViewer, sends_the_blocks_nearest_to_the_vehicle_first) {
-  WorldFacts facts = small_facts();
+  MapInfo info = small_info();
   MapMirror map;
   VoxelBlock block;
   block.clear();
   block.cells[0] = 200;
   for (std::int32_t i = -200; i <= 200; ++i) map.put({i, 0, 0}, block, 1);
-  MapWatch watch(facts, std::move(map));
+  MapWatch watch(info, std::move(map));
   Conversation pair(watch);
   while (pair.client.blocks.empty()) ASSERT_TRUE(pair.exchange());
   EXPECT_EQ(pair.client.blocks.size(), ClientQueue::kMaxBlocksPerPacket);
@@ -183,7 +183,7 @@ TEST(PageViewer, packs_blocks_that_lie_far_apart) {
   for (const std::int32_t x : {-1'000'000, -32768, 0, 32767, 32768, 1'000'000}) {
     map.put({x, -x, x}, block, 1);
   }
-  MapWatch watch(small_facts(), std::move(map));
+  MapWatch watch(small_info(), std::move(map));
   Conversation pair(watch);
   pair.exchange_all();
   EXPECT_EQ(pair.digest(), watch.map().digest());

@@ -42,7 +42,7 @@ class RunningStation : public ServedFlight {
       ASSERT_NE(opcode, -1) << "the server has closed the connection";
       if (opcode == 2) client.read(message);
     }
-    EXPECT_EQ(client.digest(small_facts().header.scale.thresholds), *client.checksum);
+    EXPECT_EQ(client.digest(small_info().header.scale.thresholds), *client.checksum);
   }
 };
 
@@ -56,9 +56,9 @@ TEST_F(RunningStation, serves_the_page_and_the_map) {
   EXPECT_THAT(socket.receive_head(), HasSubstr("Sec-WebSocket-Protocol: swiftlet.v1"));
   WireReader client;
   expect_complete(socket, client);
-  EXPECT_EQ(client.digest(small_facts().header.scale.thresholds), flight_.truth());
+  EXPECT_EQ(client.digest(small_info().header.scale.thresholds), flight_.truth());
   for (int i = 0; i < 30; ++i) flight_.step();
-  while (client.digest(small_facts().header.scale.thresholds) != flight_.truth()) {
+  while (client.digest(small_info().header.scale.thresholds) != flight_.truth()) {
     expect_complete(socket, client);
     if (HasFailure()) return;
   }
@@ -162,7 +162,7 @@ TEST_F(RunningStation, a_client_that_reads_nothing_does_not_hold_up_the_others) 
   WireReader client;
   for (int i = 0; i < 300; ++i) flight_.step();
   expect_complete(good, client);
-  while (!HasFailure() && client.digest(small_facts().header.scale.thresholds) != flight_.truth()) {
+  while (!HasFailure() && client.digest(small_info().header.scale.thresholds) != flight_.truth()) {
     expect_complete(good, client);
   }
 }

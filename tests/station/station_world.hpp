@@ -9,20 +9,20 @@
 
 namespace swiftlet::station {
 
-/// Facts of a small live world.
-inline WorldFacts small_facts() {
-  WorldFacts facts;
-  facts.source = "sim:test";
-  facts.version = "1.2.3";
-  facts.is_live = true;
-  facts.header.voxel_m = 0.1;
-  facts.trigger_m = {1.0, 1.0, 0.5};
-  facts.min_range_m = 0.2;
-  facts.max_range_m = 5.0;
-  facts.stages = {"condition", "recentre", "integrate", "publish"};
-  facts.verdicts = {"integrated", "no_readings"};
-  facts.losses = {"no_pose", "pose_gap"};
-  return facts;
+/// What is told of a small live world.
+inline MapInfo small_info() {
+  MapInfo info;
+  info.source = "sim:test";
+  info.version = "1.2.3";
+  info.is_live = true;
+  info.header.voxel_m = 0.1;
+  info.trigger_m = {1.0, 1.0, 0.5};
+  info.min_range_m = 0.2;
+  info.max_range_m = 5.0;
+  info.stages = {"condition", "recentre", "integrate", "publish"};
+  info.verdicts = {"integrated", "no_readings"};
+  info.losses = {"no_pose", "pose_gap"};
+  return info;
 }
 
 /// A map and a mapping thread's end of the feed, driven at random: cells change, the vehicle moves
@@ -31,7 +31,7 @@ class RandomFlight {
  public:
   explicit RandomFlight(test::Random& random)
       : random_(random), map_(*RollingMap::create({0.1, {4.0, 4.0, 1.6}, {0.5, 0.5, 0.5}})) {
-    feed.begin_world(map_.reader(), small_facts());
+    feed.begin_world(map_.reader(), small_info());
   }
 
   /// One frame.
@@ -58,7 +58,7 @@ class RandomFlight {
 
   /// What a ground station should know by now.
   [[nodiscard]] MapDigest truth() const {
-    MapMirror all(small_facts().header);
+    MapMirror all(small_info().header);
     for (const auto& [index, block] : outside_) {
       if (!map_.window().contains(index)) all.put(index, block, 1);
     }

@@ -39,7 +39,7 @@ MapMirror golden_map() {
 }
 
 TEST(Wire, hello_is_the_golden_file) {
-  const std::string text = hello_text(small_facts(), 3);
+  const std::string text = hello_text(small_info(), 3);
   expect_golden("hello.json", Bytes(text.begin(), text.end()));
 }
 
@@ -97,9 +97,9 @@ TEST(Wire, checksum_is_the_golden_file) {
 }
 
 TEST(Wire, a_source_whose_name_is_no_text_does_not_break_the_hello) {
-  WorldFacts facts = small_facts();
-  facts.source = "map\xff\xfe.swl";
-  EXPECT_NE(hello_text(facts, 1).find("map"), std::string::npos);
+  MapInfo info = small_info();
+  info.source = "map\xff\xfe.swl";
+  EXPECT_NE(hello_text(info, 1).find("map"), std::string::npos);
 }
 
 TEST(BlockHash, differs_with_every_cell_and_every_coordinate) {

@@ -26,8 +26,8 @@ BlockIndex middle_of(const MapMirror& map) {
 
 }  // namespace
 
-MapWatch::MapWatch(WorldFacts facts, MapMirror map)
-    : world_(1), facts_(std::move(facts)), map_(std::move(map)), centre_(middle_of(map_)) {}
+MapWatch::MapWatch(MapInfo info, MapMirror map)
+    : world_(1), info_(std::move(info)), map_(std::move(map)), centre_(middle_of(map_)) {}
 
 MapWatch::Look MapWatch::look() {
   Look look;
@@ -35,11 +35,11 @@ MapWatch::Look MapWatch::look() {
   if (auto begun = feed_->world_after(world_)) {
     look.is_new_world = true;
     world_ = begun->number;
-    facts_ = std::move(begun->facts);
+    info_ = std::move(begun->info);
     reader_ = std::move(begun->reader);
-    map_ = MapMirror(facts_.header);
+    map_ = MapMirror(info_.header);
     last_frame_.reset();
-    verdicts_.assign(facts_.verdicts.size(), 0);
+    verdicts_.assign(info_.verdicts.size(), 0);
   }
   for (const auto& gone : feed_->take_evicted()) map_.put(gone.index, gone.block, gone.version);
   for (const FrameReport& frame : std::exchange(early_, {})) book(frame, look);
@@ -82,7 +82,7 @@ StatusReport MapWatch::status() const {
   status.frame_count = map_.frame_count();
   status.blocks = map_.digest().blocks;
   status.verdicts = verdicts_;
-  status.losses.resize(std::min(facts_.losses.size(), kMaxLosses));
+  status.losses.resize(std::min(info_.losses.size(), kMaxLosses));
   if (last_frame_) status.memory_bytes = last_frame_->memory_bytes;
   if (feed_ != nullptr) {
     std::ranges::copy_n(feed_->losses().begin(), static_cast<std::ptrdiff_t>(status.losses.size()),

@@ -21,7 +21,7 @@ class MapWatch {
   /// Watches a flight. The feed must outlive this.
   explicit MapWatch(LiveFeed& feed) : feed_(&feed) {}
   /// Shows a saved map.
-  MapWatch(WorldFacts facts, MapMirror map);
+  MapWatch(MapInfo info, MapMirror map);
 
   /// What is new since the last look.
   struct Look {
@@ -33,7 +33,7 @@ class MapWatch {
   [[nodiscard]] Look look();
 
   [[nodiscard]] std::uint32_t world() const { return world_; }  ///< 0: none has begun
-  [[nodiscard]] const WorldFacts& facts() const { return facts_; }
+  [[nodiscard]] const MapInfo& info() const { return info_; }
   [[nodiscard]] const MapMirror& map() const { return map_; }
   [[nodiscard]] FlightState state() const;
   [[nodiscard]] const std::optional<FrameReport>& last_frame() const { return last_frame_; }
@@ -54,7 +54,7 @@ class MapWatch {
   LiveFeed* feed_ = nullptr;  // null: a saved map
   std::optional<MapReader> reader_;
   std::uint32_t world_ = 0;
-  WorldFacts facts_;
+  MapInfo info_;
   MapMirror map_;
   std::optional<FrameReport> last_frame_;
   std::vector<FrameReport> early_;  // of a world that look() has not come to yet

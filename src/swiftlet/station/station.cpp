@@ -46,7 +46,7 @@ Expected<std::unique_ptr<Station>> Station::start(const StationOptions& options,
 }
 
 Expected<std::unique_ptr<Station>> Station::start(const StationOptions& options, SavedWorld saved) {
-  return start_checked(options, MapWatch(std::move(saved.facts), std::move(saved.map)));
+  return start_checked(options, MapWatch(std::move(saved.info), std::move(saved.map)));
 }
 
 std::vector<std::string> Station::urls() const {

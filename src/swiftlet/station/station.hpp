@@ -37,7 +37,7 @@ struct StationOptions {
 
 /// A saved map, to be shown as it is.
 struct SavedWorld {
-  WorldFacts facts;
+  MapInfo info;
   MapMirror map;
 };
 

@@ -22,8 +22,8 @@ struct MapViewFlags {
 /// The whole map, and what its file tells of it.
 Expected<station::SavedWorld> read_world(const SavedMap& file) {
   station::SavedWorld world;
-  world.facts.version = SWIFTLET_VERSION;
-  world.facts.header = file.header();
+  world.info.version = SWIFTLET_VERSION;
+  world.info.header = file.header();
   world.map = station::MapMirror(file.header());
   auto passed =
       file.for_each_block([&](const BlockIndex& index, const VoxelBlock& block) -> Status {
@@ -42,7 +42,7 @@ Faults view(const MapViewFlags& flags) {
   const SavedMap* const file = &opened->file;
   auto world = read_world(*file);
   if (!world) return fault_of(std::move(world));
-  world->facts.source = flags.map;
+  world->info.source = flags.map;
   options->save_map = map_saver(file->meta());
   const InterruptGuard interrupt;
   auto station = station::Station::start(*options, std::move(*world));

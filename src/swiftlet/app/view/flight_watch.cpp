@@ -23,20 +23,20 @@ Expected<std::unique_ptr<FlightWatch>> FlightWatch::start(const StationFlags& fl
 
 void FlightWatch::map_begun(const Mapper& mapper) {
   const MapperConfig& config = mapper.config();
-  station::WorldFacts facts;
-  facts.source = source_;
-  facts.version = SWIFTLET_VERSION;
-  facts.is_live = true;
-  facts.header.voxel_m = config.map.voxel_m;
-  facts.header.scale = config.scale();
-  facts.trigger_m = config.map.trigger_m;
-  facts.min_range_m = config.depth.min_range_m;
-  facts.max_range_m = config.depth.max_range_m;
-  facts.stages.assign(kStageNames.begin(), kStageNames.end());
-  facts.verdicts.assign(kFrameVerdictNames.begin(), kFrameVerdictNames.end());
-  facts.losses.assign(kFrameLossNames.begin(), kFrameLossNames.end());
-  facts.losses.emplace_back("map_blocks");  // see note()
-  feed_.begin_world(mapper.reader(), facts);
+  station::MapInfo info;
+  info.source = source_;
+  info.version = SWIFTLET_VERSION;
+  info.is_live = true;
+  info.header.voxel_m = config.map.voxel_m;
+  info.header.scale = config.scale();
+  info.trigger_m = config.map.trigger_m;
+  info.min_range_m = config.depth.min_range_m;
+  info.max_range_m = config.depth.max_range_m;
+  info.stages.assign(kStageNames.begin(), kStageNames.end());
+  info.verdicts.assign(kFrameVerdictNames.begin(), kFrameVerdictNames.end());
+  info.losses.assign(kFrameLossNames.begin(), kFrameLossNames.end());
+  info.losses.emplace_back("map_blocks");  // see note()
+  feed_.begin_world(mapper.reader(), info);
 }
 
 void FlightWatch::frame_done(const Frame& frame, const MapUpdate& update, const Mapper& mapper) {

@@ -137,13 +137,13 @@ Bytes statistics(const MapWatch& watch) {
                               {"occupied", digest.occupied},
                               {"free", digest.free}};
   for (std::size_t i = 0; i < status.verdicts.size(); ++i) {
-    json["verdicts"][watch.facts().verdicts[i]] = status.verdicts[i];
+    json["verdicts"][watch.info().verdicts[i]] = status.verdicts[i];
   }
   for (std::size_t i = 0; i < status.losses.size(); ++i) {
-    json["lost"][watch.facts().losses[i]] = status.losses[i];
+    json["lost"][watch.info().losses[i]] = status.losses[i];
   }
   if (const auto& frame = watch.last_frame()) {
-    const auto& names = watch.facts().stages;
+    const auto& names = watch.info().stages;
     for (std::size_t i = 0; i < std::min(names.size(), frame->stage_ms.size()); ++i) {
       json["stage_ms"][names[i]] = frame->stage_ms[i];
     }

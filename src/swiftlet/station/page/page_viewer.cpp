@@ -41,7 +41,7 @@ class PageViewer final : public Viewer {
   std::optional<Outgoing> next(Time now) override {
     if (needs_hello_ && watch_.world() > 0) {
       needs_hello_ = false;
-      const std::string text = hello_text(watch_.facts(), watch_.world());
+      const std::string text = hello_text(watch_.info(), watch_.world());
       return Outgoing{true, Bytes(text.begin(), text.end())};
     }
     if (watch_.world() == 0 || pace_ == Pace::kHold || !bucket_.is_open(now)) return std::nullopt;

@@ -64,23 +64,23 @@ std::vector<double> list_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.
 
 }  // namespace
 
-std::string hello_text(const WorldFacts& facts, std::uint32_t world) {
+std::string hello_text(const MapInfo& info, std::uint32_t world) {
   const nlohmann::ordered_json hello{{"op", "hello"},
                                      {"protocol", kWireVersion},
                                      {"world", world},
-                                     {"source", facts.source},
-                                     {"version", facts.version},
-                                     {"live", facts.is_live},
-                                     {"voxel_m", facts.header.voxel_m},
-                                     {"free_below", facts.header.scale.thresholds.free_below},
-                                     {"occupied_from", facts.header.scale.thresholds.occupied_from},
-                                     {"logodds_per_step", facts.header.scale.logodds_per_step},
-                                     {"trigger_m", list_of(facts.trigger_m)},
-                                     {"min_range_m", facts.min_range_m},
-                                     {"max_range_m", facts.max_range_m},
-                                     {"stages", facts.stages},
-                                     {"verdicts", facts.verdicts},
-                                     {"losses", facts.losses}};
+                                     {"source", info.source},
+                                     {"version", info.version},
+                                     {"live", info.is_live},
+                                     {"voxel_m", info.header.voxel_m},
+                                     {"free_below", info.header.scale.thresholds.free_below},
+                                     {"occupied_from", info.header.scale.thresholds.occupied_from},
+                                     {"logodds_per_step", info.header.scale.logodds_per_step},
+                                     {"trigger_m", list_of(info.trigger_m)},
+                                     {"min_range_m", info.min_range_m},
+                                     {"max_range_m", info.max_range_m},
+                                     {"stages", info.stages},
+                                     {"verdicts", info.verdicts},
+                                     {"losses", info.losses}};
   // A file name may hold any byte.
   return hello.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "swiftlet/station/page/client_queue.hpp"
+#include "swiftlet/station/state/map_info.hpp"
 #include "swiftlet/station/state/map_mirror.hpp"
-#include "swiftlet/station/state/world_facts.hpp"
 
 struct ZSTD_CCtx_s;
 
@@ -48,12 +48,12 @@ struct StatusReport {
   std::uint32_t clients = 0;
   std::uint32_t rate_limit = 0;         ///< of this client [bytes/s]; 0 is none
   std::uint32_t reports_missed = 0;     ///< frames that the station did not hear of
-  std::vector<std::uint32_t> verdicts;  ///< frames so far, by WorldFacts::verdicts
-  std::vector<std::uint32_t> losses;    ///< frames so far, by WorldFacts::losses
+  std::vector<std::uint32_t> verdicts;  ///< frames so far, by MapInfo::verdicts
+  std::vector<std::uint32_t> losses;    ///< frames so far, by MapInfo::losses
 };
 
-/// The first message, a text: JSON with what WorldFacts tells.
-[[nodiscard]] std::string hello_text(const WorldFacts& facts, std::uint32_t world);
+/// The first message, a text: JSON with what MapInfo tells.
+[[nodiscard]] std::string hello_text(const MapInfo& info, std::uint32_t world);
 [[nodiscard]] Bytes frames_message(const MessageHeader& header,
                                    std::span<const FrameReport> reports);
 [[nodiscard]] Bytes status_message(const MessageHeader& header, const StatusReport& status);

@@ -12,10 +12,10 @@ LiveFeed::LiveFeed() {
   taken_.reserve(kEvicted);
 }
 
-void LiveFeed::begin_world(MapReader reader, const WorldFacts& facts) {
+void LiveFeed::begin_world(MapReader reader, const MapInfo& info) {
   const std::lock_guard lock(mutex_);
   filling_.clear();
-  begun_ = World{world_.load() + 1, facts, std::move(reader)};
+  begun_ = World{world_.load() + 1, info, std::move(reader)};
   world_.store(begun_->number);
 }
 

@@ -13,8 +13,8 @@
 #include "swiftlet/frame/depth_image.hpp"
 #include "swiftlet/map/block_archive.hpp"
 #include "swiftlet/map/map_snapshot.hpp"
+#include "swiftlet/station/state/map_info.hpp"
 #include "swiftlet/station/state/report_ring.hpp"
-#include "swiftlet/station/state/world_facts.hpp"
 
 namespace swiftlet::station {
 
@@ -34,7 +34,7 @@ class LiveFeed {
   LiveFeed();
 
   // The mapping thread.
-  void begin_world(MapReader reader, const WorldFacts& facts);
+  void begin_world(MapReader reader, const MapInfo& info);
   void report(FrameReport report);
   void evicted(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version);
   /// Keeps the image if somebody wants to see it and the station is not just taking one. Copies
@@ -52,7 +52,7 @@ class LiveFeed {
   };
   struct World {
     std::uint32_t number = 0;  ///< 0: none has begun
-    WorldFacts facts;
+    MapInfo info;
     std::optional<MapReader> reader;
   };
   /// The world that has begun since `number`; nullopt if there is no newer one. Then what is still

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "swiftlet/station/state/world_facts.hpp"
+#include "swiftlet/station/state/map_info.hpp"
 
 namespace swiftlet::station {
 

@@ -19,7 +19,7 @@ namespace swiftlet::station {
 
 /// What a viewer must know of a map before its first cell. Numbers in frames and counters stand for
 /// the names here, so that a page shows reasons which it was not written for.
-struct WorldFacts {
+struct MapInfo {
   std::string source;   ///< where the frames or the map come from, for people
   std::string version;  ///< of the program
   bool is_live = false;
@@ -40,7 +40,7 @@ inline constexpr std::size_t kMaxLosses = 16;
 struct FrameReport {
   Stamp stamp;
   std::uint32_t number = 0;  ///< of the frames offered to the mapper, from 1
-  std::uint8_t verdict = 0;  ///< index into WorldFacts::verdicts
+  std::uint8_t verdict = 0;  ///< index into MapInfo::verdicts
   std::uint8_t camera = 0;   ///< which one of the rig
   bool has_shifted = false;  ///< the window moved
   /// Around which place, if not the camera's (map.lookahead_s).
@@ -53,7 +53,7 @@ struct FrameReport {
   std::uint32_t cells = 0;
   std::uint32_t blocks_left = 0;  ///< in view but not fused: the deadline was over
   std::optional<PinholeIntrinsics> intrinsics;
-  std::array<std::uint32_t, kMaxLosses> lost{};  ///< so far, by WorldFacts::losses
+  std::array<std::uint32_t, kMaxLosses> lost{};  ///< so far, by MapInfo::losses
   std::uint64_t memory_bytes = 0;
 };
 
