@@ -19,16 +19,16 @@ namespace {
 using namespace swiftlet;
 using namespace swiftlet::station;
 
-const MapWatch& small_map() {
-  static const MapWatch kWatch = [] {
+const MapModel& small_map() {
+  static const MapModel kModel = [] {
     MapMirror map;
     VoxelBlock block;
     block.clear();
     block.cells[0] = 200;
     for (std::int32_t i = 0; i < 100; ++i) map.put({i * 700, 0, -i}, block, 1);
-    return MapWatch(MapInfo{}, std::move(map));
+    return MapModel(MapInfo{}, std::move(map));
   }();
-  return kWatch;
+  return kModel;
 }
 
 /// The bytes up to the next newline.

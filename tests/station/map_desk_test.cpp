@@ -21,7 +21,7 @@ constexpr std::size_t kBudget_bytes = 3500;
 
 class SlowDownloads : public ::testing::Test {
  protected:
-  static MapWatch small_world() {
+  static MapModel small_world() {
     MapMirror map(small_info().header);
     VoxelBlock block;
     block.clear();
@@ -42,13 +42,13 @@ class SlowDownloads : public ::testing::Test {
   }
 
   boost::asio::io_context io_;
-  MapWatch watch_ = small_world();
+  MapModel model_ = small_world();
   int made_ = 0;
   MapSaver saver_ = [this](const BlockMap&) {
     return std::vector<std::uint8_t>(kFile_bytes, static_cast<std::uint8_t>(++made_));
   };
   MapDesk::Time now_{};
-  MapDesk desk_{io_, watch_, saver_, kBudget_bytes};
+  MapDesk desk_{io_, model_, saver_, kBudget_bytes};
 };
 
 TEST_F(SlowDownloads, hold_no_more_memory_than_their_share) {
@@ -70,7 +70,7 @@ TEST_F(SlowDownloads, hold_no_more_memory_than_their_share) {
 }
 
 TEST_F(SlowDownloads, are_given_one_file_however_large) {
-  MapDesk narrow(io_, watch_, saver_, 1);
+  MapDesk narrow(io_, model_, saver_, 1);
   std::optional<Expected<SharedBytes>> got;
   narrow.ask(now_, [&](const Expected<SharedBytes>& file) { got = file; });
   const auto busy = boost::asio::make_work_guard(io_);

@@ -19,7 +19,7 @@ const OccupancyThresholds kThresholds{};
 
 /// A viewer, its client, and a clock that only the test moves.
 struct Conversation {
-  explicit Conversation(const MapWatch& watch) : viewer(make_page_viewer(watch)) {}
+  explicit Conversation(const MapModel& model) : viewer(make_page_viewer(model)) {}
 
   /// The next message, whether it arrives or not; false if there is none for now.
   bool exchange(bool arrives = true) {
@@ -53,72 +53,72 @@ struct Conversation {
 TEST(PageViewer, brings_a_client_to_exactly_the_map_and_proves_it) {
   test::Random random;
   RandomFlight flight(random);
-  MapWatch watch(flight.feed);
-  Conversation pair(watch);
+  MapModel model(flight.feed);
+  Conversation pair(model);
   for (int i = 0; i < 80; ++i) {
     flight.step();
-    pair.viewer->saw(watch.look());
+    pair.viewer->saw(model.poll());
     if (random.chance(0.5)) pair.exchange_all();
     pair.now += 50ms;
   }
   pair.exchange_all();
-  EXPECT_EQ(pair.digest(), watch.map().digest()) << random.repeat();
-  EXPECT_EQ(pair.client.checksum, watch.map().digest()) << random.repeat();
+  EXPECT_EQ(pair.digest(), model.map().digest()) << random.repeat();
+  EXPECT_EQ(pair.client.checksum, model.map().digest()) << random.repeat();
   EXPECT_EQ(pair.client.frame_numbers.size(), 80U);
 }
 
 TEST(PageViewer, heals_whatever_is_lost_on_the_way) {
   test::Random random;
   RandomFlight flight(random);
-  MapWatch watch(flight.feed);
-  Conversation pair(watch);
+  MapModel model(flight.feed);
+  Conversation pair(model);
   for (int i = 0; i < 150; ++i) {
     flight.step();
-    pair.viewer->saw(watch.look());
+    pair.viewer->saw(model.poll());
     while (pair.exchange(!random.chance(0.3))) {
     }
     pair.now += 50ms;
   }
   flight.step();
   for (int i = 0; i < 3; ++i) {  // a client notices a loss by the message after it
-    pair.viewer->saw(watch.look());
+    pair.viewer->saw(model.poll());
     pair.exchange_all();
     pair.now += 1s;
   }
-  EXPECT_EQ(pair.digest(), watch.map().digest()) << random.repeat();
+  EXPECT_EQ(pair.digest(), model.map().digest()) << random.repeat();
 }
 
 TEST(PageViewer, sends_everything_again_when_a_loss_is_too_long_ago) {
   test::Random random;
   RandomFlight flight(random);
-  MapWatch watch(flight.feed);
-  Conversation pair(watch);
+  MapModel model(flight.feed);
+  Conversation pair(model);
   flight.step();
-  pair.viewer->saw(watch.look());
+  pair.viewer->saw(model.poll());
   pair.exchange_all();
   const auto packets = pair.client.next_sequence + 3 * ClientQueue::kPacketsRemembered;
   while (pair.client.next_sequence < packets) {
     flight.step();
-    pair.viewer->saw(watch.look());
+    pair.viewer->saw(model.poll());
     pair.exchange_all();
     pair.now += 1s;
   }
   pair.client.blocks.clear();
   pair.say({1, 0, 0, 0}, {0, 2});
   pair.exchange_all();
-  EXPECT_EQ(pair.digest(), watch.map().digest()) << random.repeat();
+  EXPECT_EQ(pair.digest(), model.map().digest()) << random.repeat();
 }
 
 TEST(PageViewer, keeps_to_the_bandwidth_and_still_completes_the_map) {
   test::Random random;
   RandomFlight flight(random);
   for (int i = 0; i < 40; ++i) flight.step();
-  MapWatch watch(flight.feed);
-  const MapWatch::Look look = watch.look();
-  Conversation pair(watch);
+  MapModel model(flight.feed);
+  const MapModel::Update update = model.poll();
+  Conversation pair(model);
   constexpr std::uint32_t kRate = 125'000;  // 1 Mbit/s
   pair.say({4, 0, 0, 0}, {kRate});
-  pair.viewer->saw(look);
+  pair.viewer->saw(update);
   const Time start = pair.now;
   while (!pair.client.checksum) {
     pair.exchange_all();
@@ -129,19 +129,19 @@ TEST(PageViewer, keeps_to_the_bandwidth_and_still_completes_the_map) {
     ASSERT_LT(passed_s, 60.0) << random.repeat();
   }
   EXPECT_GT(pair.now - start, 100ms) << "the map was too small to tell";
-  EXPECT_EQ(pair.digest(), watch.map().digest()) << random.repeat();
+  EXPECT_EQ(pair.digest(), model.map().digest()) << random.repeat();
 }
 
 TEST(PageViewer, a_slow_client_gets_fewer_updates_and_never_an_older_map) {
   test::Random random;
   RandomFlight flight(random);
-  MapWatch watch(flight.feed);
-  Conversation pair(watch);
+  MapModel model(flight.feed);
+  Conversation pair(model);
   for (int i = 0; i < 200; ++i) {
     flight.step();
-    pair.viewer->saw(watch.look());
+    pair.viewer->saw(model.poll());
     pair.now += 50ms;
-    (void)pair.exchange();  // one message a look, far less than what changes
+    (void)pair.exchange();  // one message a poll, far less than what changes
   }
   // Each message holds its blocks as they are now: what waits is a set of places, not of states.
   pair.client.blocks.clear();
@@ -154,8 +154,8 @@ TEST(PageViewer, a_slow_client_gets_fewer_updates_and_never_an_older_map) {
   pair.client.read(message);
   ASSERT_FALSE(pair.client.blocks.empty());
   for (const auto& [index, block] : pair.client.blocks) {
-    ASSERT_NE(watch.map().find(index), nullptr);
-    EXPECT_EQ(*watch.map().find(index), block);
+    ASSERT_NE(model.map().find(index), nullptr);
+    EXPECT_EQ(*model.map().find(index), block);
   }
   pair.exchange_all();
   EXPECT_LE(pair.client.frame_numbers.size(), 600U) << "the frames that wait are bounded";
@@ -168,8 +168,8 @@ TEST(PageViewer, sends_the_blocks_nearest_to_the_vehicle_first) {
   block.clear();
   block.cells[0] = 200;
   for (std::int32_t i = -200; i <= 200; ++i) map.put({i, 0, 0}, block, 1);
-  MapWatch watch(info, std::move(map));
-  Conversation pair(watch);
+  MapModel model(info, std::move(map));
+  Conversation pair(model);
   while (pair.client.blocks.empty()) ASSERT_TRUE(pair.exchange());
   EXPECT_EQ(pair.client.blocks.size(), ClientQueue::kMaxBlocksPerPacket);
   for (const auto& [index, cells] : pair.client.blocks) EXPECT_LE(std::abs(index.x), 32);
@@ -183,21 +183,21 @@ TEST(PageViewer, packs_blocks_that_lie_far_apart) {
   for (const std::int32_t x : {-1'000'000, -32768, 0, 32767, 32768, 1'000'000}) {
     map.put({x, -x, x}, block, 1);
   }
-  MapWatch watch(small_info(), std::move(map));
-  Conversation pair(watch);
+  MapModel model(small_info(), std::move(map));
+  Conversation pair(model);
   pair.exchange_all();
-  EXPECT_EQ(pair.digest(), watch.map().digest());
+  EXPECT_EQ(pair.digest(), model.map().digest());
   EXPECT_EQ(pair.client.blocks.size(), 6U);
 }
 
 TEST(PageViewer, holds_and_steps) {
   test::Random random;
   RandomFlight flight(random);
-  MapWatch watch(flight.feed);
-  Conversation pair(watch);
+  MapModel model(flight.feed);
+  Conversation pair(model);
   const auto fly_on = [&] {
     flight.step();
-    pair.viewer->saw(watch.look());
+    pair.viewer->saw(model.poll());
     pair.now += 1s;
     pair.exchange_all();
   };
@@ -209,13 +209,13 @@ TEST(PageViewer, holds_and_steps) {
   EXPECT_EQ(pair.digest(), held);
   pair.say({3, 2, 0, 0});
   pair.exchange_all();
-  EXPECT_EQ(pair.digest(), watch.map().digest()) << "a step brings it to the present";
+  EXPECT_EQ(pair.digest(), model.map().digest()) << "a step brings it to the present";
   const MapDigest stepped = pair.digest();
   fly_on();
   EXPECT_EQ(pair.digest(), stepped) << "and holds again";
   pair.say({3, 0, 0, 0});
   pair.exchange_all();
-  EXPECT_EQ(pair.digest(), watch.map().digest());
+  EXPECT_EQ(pair.digest(), model.map().digest());
 }
 
 TEST(ClientQueue, is_bounded_behind_a_client_that_takes_nothing) {

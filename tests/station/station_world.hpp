@@ -5,7 +5,7 @@
 
 #include "support/seeds.hpp"
 #include "swiftlet/map/rolling_map.hpp"
-#include "swiftlet/station/map_watch.hpp"
+#include "swiftlet/station/map_model.hpp"
 
 namespace swiftlet::station {
 

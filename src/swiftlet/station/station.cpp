@@ -27,12 +27,12 @@ Status check(const StationOptions& options) {
 }
 
 #if SWIFTLET_HAS_VIEW
-Expected<std::unique_ptr<Station>> start_checked(const StationOptions& options, MapWatch&& watch) {
+Expected<std::unique_ptr<Station>> start_checked(const StationOptions& options, MapModel&& model) {
   if (auto fine = check(options); !fine) return forward_error(std::move(fine));
-  return start_server(options, std::move(watch));
+  return start_server(options, std::move(model));
 }
 #else
-Expected<std::unique_ptr<Station>> start_checked(const StationOptions& options, MapWatch&&) {
+Expected<std::unique_ptr<Station>> start_checked(const StationOptions& options, MapModel&&) {
   if (auto fine = check(options); !fine) return forward_error(std::move(fine));
   return fail(ErrorCode::kUnsupported, "ground station", "this build has none",
               "configure with -DSWIFTLET_WITH_VIEW=ON");
@@ -42,11 +42,11 @@ Expected<std::unique_ptr<Station>> start_checked(const StationOptions& options, 
 }  // namespace
 
 Expected<std::unique_ptr<Station>> Station::start(const StationOptions& options, LiveFeed& feed) {
-  return start_checked(options, MapWatch(feed));
+  return start_checked(options, MapModel(feed));
 }
 
 Expected<std::unique_ptr<Station>> Station::start(const StationOptions& options, SavedWorld saved) {
-  return start_checked(options, MapWatch(std::move(saved.info), std::move(saved.map)));
+  return start_checked(options, MapModel(std::move(saved.info), std::move(saved.map)));
 }
 
 std::vector<std::string> Station::urls() const {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "swiftlet/station/map_watch.hpp"
+#include "swiftlet/station/map_model.hpp"
 
 namespace swiftlet::station {
 
@@ -27,7 +27,7 @@ class Viewer {
   virtual ~Viewer() = default;
 
   /// The station has looked.
-  virtual void saw(const MapWatch::Look& look) = 0;
+  virtual void saw(const MapModel::Update& update) = 0;
   /// The next message, asked for when the one before has left; nullopt: nothing for now.
   [[nodiscard]] virtual std::optional<Outgoing> next(Time now) = 0;
   /// The client has said something. Errors: kCorruptInput, after which it is sent away.
@@ -39,9 +39,9 @@ class Viewer {
   [[nodiscard]] virtual bool wants_depth() const { return false; }
 };
 
-/// A client of our own page's protocol. `watch` must outlive it.
-[[nodiscard]] std::unique_ptr<Viewer> make_page_viewer(const MapWatch& watch);
+/// A client of our own page's protocol. `model` must outlive it.
+[[nodiscard]] std::unique_ptr<Viewer> make_page_viewer(const MapModel& model);
 /// A client of the Foxglove WebSocket protocol: Foxglove, Lichtblick.
-[[nodiscard]] std::unique_ptr<Viewer> make_foxglove_viewer(const MapWatch& watch);
+[[nodiscard]] std::unique_ptr<Viewer> make_foxglove_viewer(const MapModel& model);
 
 }  // namespace swiftlet::station

@@ -9,23 +9,23 @@
 namespace swiftlet::station {
 
 /// Centres of all occupied cells [m, map] with their byte.
-Bytes occupied_cells(const MapWatch& watch) {
+Bytes occupied_cells(const MapModel& model) {
   constexpr std::uint32_t kStride = 13;
   Bytes points;
-  points.reserve(std::size_t{kStride} * watch.map().digest().occupied);
+  points.reserve(std::size_t{kStride} * model.map().digest().occupied);
   ByteWriter point(points);
-  const double voxel_m = watch.map().voxel_m();
-  watch.map().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
+  const double voxel_m = model.map().voxel_m();
+  model.map().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
     for (int i = 0; i < kBlockVoxels; ++i) {
       const QuantizedLogOdds cell = block.cells[static_cast<std::size_t>(i)];
-      if (watch.map().scale().classify(cell) != Occupancy::kOccupied) continue;
+      if (model.map().scale().classify(cell) != Occupancy::kOccupied) continue;
       for (const double v : centre_of(voxel_at(index, i), voxel_m)) point.f32(v);
       point.u8(cell);
     }
   });
   Bytes message;
   CdrWriter out(message);
-  write_time(out, watch);
+  write_time(out, model);
   out.text(kMapFrame);
   write_pose(out, Eigen::Vector3d::Zero());
   out.u32(kStride);
@@ -37,10 +37,10 @@ Bytes occupied_cells(const MapWatch& watch) {
 }
 
 /// The blocks around the vehicle as a dense grid, as the schema has it: z slowest, x fastest.
-Bytes window_grid(const MapWatch& watch) {
+Bytes window_grid(const MapModel& model) {
   constexpr BlockIndex kHalf{4, 4, 2};  // blocks on either side of the vehicle's
   constexpr std::uint32_t kCellBytes = 5;
-  const BlockIndex& centre = watch.centre();
+  const BlockIndex& centre = model.centre();
   const VoxelIndex first =
       first_voxel({centre.x - kHalf.x, centre.y - kHalf.y, centre.z - kHalf.z});
   constexpr std::int32_t kX = (2 * kHalf.x + 1) * kBlockEdge;
@@ -50,7 +50,7 @@ Bytes window_grid(const MapWatch& watch) {
   cells.reserve(std::size_t{kCellBytes} * kX * kY * kZ);
   const auto write_cell = [&](QuantizedLogOdds cell) {
     cells.push_back(cell);
-    switch (watch.map().scale().classify(cell)) {
+    switch (model.map().scale().classify(cell)) {
       case Occupancy::kOccupied:
         cells.insert(cells.end(), {47, 111, 219, 255});
         break;
@@ -66,7 +66,7 @@ Bytes window_grid(const MapWatch& watch) {
     for (std::int32_t y = 0; y < kY; ++y) {
       for (std::int32_t x = 0; x < kX; x += kBlockEdge) {
         const VoxelIndex v{first.x + x, first.y + y, first.z + z};
-        const VoxelBlock* block = watch.map().find(block_of(v));
+        const VoxelBlock* block = model.map().find(block_of(v));
         const std::size_t row = offset_in_block(v);
         for (std::size_t i = 0; i < kBlockEdge; ++i) {
           write_cell(block == nullptr ? kUnknownCell : block->cells[row + i]);
@@ -74,10 +74,10 @@ Bytes window_grid(const MapWatch& watch) {
       }
     }
   }
-  const double voxel_m = watch.map().voxel_m();
+  const double voxel_m = model.map().voxel_m();
   Bytes message;
   CdrWriter out(message);
-  write_time(out, watch);
+  write_time(out, model);
   out.text(kMapFrame);
   write_pose(out, Eigen::Vector3d(first.x, first.y, first.z) * voxel_m);
   out.u32(kY);

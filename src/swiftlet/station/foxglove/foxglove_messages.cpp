@@ -13,14 +13,14 @@ namespace swiftlet::station {
 namespace {
 
 /// The vehicle with its field of view to 1 m, and the window.
-Bytes vehicle(const MapWatch& watch) {
-  if (!watch.last_frame()) return {};
-  const FrameReport& frame = *watch.last_frame();
+Bytes vehicle(const MapModel& model) {
+  if (!model.last_frame()) return {};
+  const FrameReport& frame = *model.last_frame();
   Bytes message;
   CdrWriter out(message);
   out.count(0);  // deletions
   out.count(1);
-  write_time(out, watch);
+  write_time(out, model);
   out.text(kMapFrame);
   out.text("vehicle");
   out.i32(0);  // lifetime: until it is replaced
@@ -33,8 +33,8 @@ Bytes vehicle(const MapWatch& watch) {
   write_pose(out, T_world_camera.translation(), T_world_camera.rotation());
   write_vector(out, {0.3, 0.08, 0.3});
   write_color(out, {1.0, 0.48, 0.27, 1.0});
-  const VoxelBox box = voxel_box(watch.map().window());
-  const double voxel_m = watch.map().voxel_m();
+  const VoxelBox box = voxel_box(model.map().window());
+  const double voxel_m = model.map().voxel_m();
   const Eigen::Vector3d low = Eigen::Vector3d(box.first.x, box.first.y, box.first.z) * voxel_m;
   const Eigen::Vector3d high =
       Eigen::Vector3d(box.last.x + 1, box.last.y + 1, box.last.z + 1) * voxel_m;
@@ -70,25 +70,25 @@ Bytes vehicle(const MapWatch& watch) {
   return message;
 }
 
-Bytes transforms(const MapWatch& watch) {
-  if (!watch.last_frame()) return {};
-  const auto& T_world_camera = watch.last_frame()->T_world_camera;
+Bytes transforms(const MapModel& model) {
+  if (!model.last_frame()) return {};
+  const auto& T_world_camera = model.last_frame()->T_world_camera;
   Bytes message;
   CdrWriter out(message);
   out.count(1);
-  write_time(out, watch);
+  write_time(out, model);
   out.text(kMapFrame);
   out.text(kCameraFrame);
   write_pose(out, T_world_camera.translation(), T_world_camera.rotation());
   return message;
 }
 
-Bytes calibration(const MapWatch& watch) {
-  if (!watch.last_frame() || !watch.last_frame()->intrinsics) return {};
-  const PinholeIntrinsics& camera = *watch.last_frame()->intrinsics;
+Bytes calibration(const MapModel& model) {
+  if (!model.last_frame() || !model.last_frame()->intrinsics) return {};
+  const PinholeIntrinsics& camera = *model.last_frame()->intrinsics;
   Bytes message;
   CdrWriter out(message);
-  write_time(out, watch);
+  write_time(out, model);
   out.text(kCameraFrame);
   out.u32(static_cast<std::uint32_t>(camera.width()));
   out.u32(static_cast<std::uint32_t>(camera.height()));
@@ -105,20 +105,20 @@ Bytes calibration(const MapWatch& watch) {
   return message;
 }
 
-Bytes depth_image(const MapWatch& watch) {
-  const auto& raw = watch.depth().raw;
+Bytes depth_image(const MapModel& model) {
+  const auto& raw = model.depth().raw;
   if (raw.empty()) return {};
   Bytes pixels;
   pixels.reserve(2 * raw.pixels().size());
   ByteWriter pixel(pixels);
   // 16UC1 is in millimetres.
-  const float scale = watch.depth().unit_m * 1000.0F;
+  const float scale = model.depth().unit_m * 1000.0F;
   for (const std::uint16_t d : raw.pixels()) {
     pixel.u16(static_cast<std::uint16_t>(std::min(65535.0F, static_cast<float>(d) * scale + 0.5F)));
   }
   Bytes message;
   CdrWriter out(message);
-  write_time(out, watch);
+  write_time(out, model);
   out.text(kCameraFrame);
   out.u32(static_cast<std::uint32_t>(raw.width()));
   out.u32(static_cast<std::uint32_t>(raw.height()));
@@ -128,22 +128,22 @@ Bytes depth_image(const MapWatch& watch) {
   return message;
 }
 
-Bytes statistics(const MapWatch& watch) {
-  const StatusReport status = watch.status();
-  const MapDigest& digest = watch.map().digest();
+Bytes statistics(const MapModel& model) {
+  const StatusReport status = model.status();
+  const MapDigest& digest = model.map().digest();
   nlohmann::ordered_json json{{"frame_count", status.frame_count},
                               {"memory_bytes", status.memory_bytes},
                               {"blocks", digest.blocks},
                               {"occupied", digest.occupied},
                               {"free", digest.free}};
   for (std::size_t i = 0; i < status.verdicts.size(); ++i) {
-    json["verdicts"][watch.info().verdicts[i]] = status.verdicts[i];
+    json["verdicts"][model.info().verdicts[i]] = status.verdicts[i];
   }
   for (std::size_t i = 0; i < status.losses.size(); ++i) {
-    json["lost"][watch.info().losses[i]] = status.losses[i];
+    json["lost"][model.info().losses[i]] = status.losses[i];
   }
-  if (const auto& frame = watch.last_frame()) {
-    const auto& names = watch.info().stages;
+  if (const auto& frame = model.last_frame()) {
+    const auto& names = model.info().stages;
     for (std::size_t i = 0; i < std::min(names.size(), frame->stage_ms.size()); ++i) {
       json["stage_ms"][names[i]] = frame->stage_ms[i];
     }

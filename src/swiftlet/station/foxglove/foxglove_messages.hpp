@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "swiftlet/station/map_watch.hpp"
+#include "swiftlet/station/map_model.hpp"
 
 namespace swiftlet::station {
 
@@ -19,7 +19,7 @@ struct FoxgloveChannel {
   enum class Follows : std::uint8_t { kMap, kFrames, kDepth } follows;
   double max_hz;
   /// The newest state; empty where there is none yet.
-  Bytes (*message)(const MapWatch& watch);
+  Bytes (*message)(const MapModel& model);
 };
 
 /// Their numbers on the wire are their places here, from 1.

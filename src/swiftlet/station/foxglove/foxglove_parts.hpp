@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "swiftlet/station/foxglove/cdr_writer.hpp"
-#include "swiftlet/station/map_watch.hpp"
+#include "swiftlet/station/map_model.hpp"
 
 namespace swiftlet::station {
 
@@ -27,9 +27,9 @@ struct Field {
 };
 
 /// The last frame's stamp.
-inline void write_time(CdrWriter& out, const MapWatch& watch) {
+inline void write_time(CdrWriter& out, const MapModel& model) {
   constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-  const std::int64_t ns = watch.last_frame() ? watch.last_frame()->stamp.ns : 0;
+  const std::int64_t ns = model.last_frame() ? model.last_frame()->stamp.ns : 0;
   out.i32(static_cast<std::int32_t>(ns / kNanosecondsPerSecond));
   out.u32(static_cast<std::uint32_t>(ns % kNanosecondsPerSecond));
 }
@@ -53,7 +53,7 @@ inline void write_fields(CdrWriter& out, std::span<const Field> fields) {
   }
 }
 
-[[nodiscard]] Bytes occupied_cells(const MapWatch& watch);
-[[nodiscard]] Bytes window_grid(const MapWatch& watch);
+[[nodiscard]] Bytes occupied_cells(const MapModel& model);
+[[nodiscard]] Bytes window_grid(const MapModel& model);
 
 }  // namespace swiftlet::station

@@ -54,19 +54,19 @@ json advertisement() {
 /// the one before has left, so that a slow client gets fewer of them.
 class FoxgloveViewer final : public Viewer {
  public:
-  explicit FoxgloveViewer(const MapWatch& watch) : watch_(watch) {}
+  explicit FoxgloveViewer(const MapModel& model) : model_(model) {}
 
-  void saw(const MapWatch::Look& look) override {
+  void saw(const MapModel::Update& update) override {
     for (Subscription& s : subscriptions_) {
       switch (s.channel->follows) {
         case FoxgloveChannel::Follows::kMap:
-          s.is_due |= !look.changed.empty();
+          s.is_due |= !update.changed.empty();
           break;
         case FoxgloveChannel::Follows::kFrames:
-          s.is_due |= !look.frames.empty();
+          s.is_due |= !update.frames.empty();
           break;
         case FoxgloveChannel::Follows::kDepth:
-          s.is_due |= look.has_depth;
+          s.is_due |= update.has_depth;
           break;
       }
     }
@@ -80,14 +80,14 @@ class FoxgloveViewer final : public Viewer {
 
   std::optional<Outgoing> next(Time now) override {
     if (greetings_ < 2) return greeting();
-    if (watch_.world() == 0) return std::nullopt;
+    if (model_.world() == 0) return std::nullopt;
     for (std::size_t i = 0; i < subscriptions_.size(); ++i) {
       Subscription& s = subscriptions_[(turn_ + i) % subscriptions_.size()];
       if (!s.is_due || now < s.not_before) continue;
       s.is_due = false;
       s.not_before = now + std::chrono::duration_cast<std::chrono::nanoseconds>(
                                std::chrono::duration<double>(1.0 / s.channel->max_hz));
-      const Bytes payload = s.channel->message(watch_);
+      const Bytes payload = s.channel->message(model_);
       if (payload.empty()) continue;
       turn_ = (turn_ + i + 1) % subscriptions_.size();
       return message_data(s.id, payload);
@@ -132,7 +132,7 @@ class FoxgloveViewer final : public Viewer {
     ByteWriter writer(out.data);
     writer.u8(1);
     writer.u32(id);
-    writer.u64(watch_.last_frame() ? static_cast<std::uint64_t>(watch_.last_frame()->stamp.ns) : 0);
+    writer.u64(model_.last_frame() ? static_cast<std::uint64_t>(model_.last_frame()->stamp.ns) : 0);
     writer.bytes(payload);
     return out;
   }
@@ -177,7 +177,7 @@ class FoxgloveViewer final : public Viewer {
     return Done{};
   }
 
-  const MapWatch& watch_;
+  const MapModel& model_;
   std::vector<Subscription> subscriptions_;
   std::size_t turn_ = 0;  // whose turn it is, so that none starves
   int greetings_ = 0;
@@ -185,8 +185,8 @@ class FoxgloveViewer final : public Viewer {
 
 }  // namespace
 
-std::unique_ptr<Viewer> make_foxglove_viewer(const MapWatch& watch) {
-  return std::make_unique<FoxgloveViewer>(watch);
+std::unique_ptr<Viewer> make_foxglove_viewer(const MapModel& model) {
+  return std::make_unique<FoxgloveViewer>(model);
 }
 
 }  // namespace swiftlet::station

@@ -20,7 +20,7 @@ void MapDesk::ask(Time now, Ready ready) {
     ready(fail(ErrorCode::kUnsupported, "map file", "this station has none to give"));
     return;
   }
-  if (watch_.world() == 0 || watch_.map().digest().blocks == 0) {
+  if (model_.world() == 0 || model_.map().digest().blocks == 0) {
     ready(fail(ErrorCode::kNotFound, "map file", "nothing has been mapped yet"));
     return;
   }
@@ -40,7 +40,7 @@ void MapDesk::ask(Time now, Ready ready) {
   waiting_.push_back(std::move(ready));
   if (waiting_.size() > 1) return;
   last_at_ = now;
-  boost::asio::post(worker_, [this, copy = std::make_shared<const BlockMap>(watch_.map().copy())] {
+  boost::asio::post(worker_, [this, copy = std::make_shared<const BlockMap>(model_.map().copy())] {
     run_with_low_priority();
     auto file = std::make_shared<Expected<std::vector<std::uint8_t>>>(saver_(*copy));
     boost::asio::post(io_, [this, file] { made(std::move(*file)); });

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "swiftlet/station/map_watch.hpp"
+#include "swiftlet/station/map_model.hpp"
 #include "swiftlet/station/state/map_saver.hpp"
 
 namespace swiftlet::station {
@@ -27,9 +27,9 @@ class MapDesk {
   using Ready = std::function<void(const Expected<SharedBytes>&)>;
 
   /// All must outlive it. `saver` may be empty: then there is nothing to hand out.
-  MapDesk(boost::asio::io_context& io, const MapWatch& watch, const MapSaver& saver,
+  MapDesk(boost::asio::io_context& io, const MapModel& model, const MapSaver& saver,
           std::size_t max_bytes)
-      : io_(io), watch_(watch), saver_(saver), max_bytes_(max_bytes) {}
+      : io_(io), model_(model), saver_(saver), max_bytes_(max_bytes) {}
   ~MapDesk() { worker_.join(); }
   MapDesk(const MapDesk&) = delete;
   MapDesk& operator=(const MapDesk&) = delete;
@@ -47,7 +47,7 @@ class MapDesk {
   void made(Expected<std::vector<std::uint8_t>>&& file);
 
   boost::asio::io_context& io_;
-  const MapWatch& watch_;
+  const MapModel& model_;
   const MapSaver& saver_;
   std::size_t max_bytes_;
   std::vector<Ready> waiting_;  // not empty: a file is being made

@@ -20,7 +20,7 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 
 /// Picks from "a, b" what this server speaks; a client that offers nothing gets nothing.
-std::optional<HttpHost::Chosen> choose_viewer(std::string_view offered, const MapWatch& watch) {
+std::optional<HttpHost::Chosen> choose_viewer(std::string_view offered, const MapModel& model) {
   while (!offered.empty()) {
     const auto end = std::min(offered.find(','), offered.size());
     std::string_view name = offered.substr(0, end);
@@ -30,7 +30,7 @@ std::optional<HttpHost::Chosen> choose_viewer(std::string_view offered, const Ma
     for (const Subprotocol& known : subprotocols()) {
       if (known.name == name) {
         return HttpHost::Chosen{
-            known.make(watch),
+            known.make(model),
             std::string(name),
             {.max_message = known.max_message, .messages_per_s = known.messages_per_s}};
       }
@@ -41,10 +41,10 @@ std::optional<HttpHost::Chosen> choose_viewer(std::string_view offered, const Ma
 
 class Server final : public Station {
  public:
-  Server(const StationOptions& options, MapWatch watch)
+  Server(const StationOptions& options, MapModel model)
       : Station(options.access.token),
         options_(options),
-        watch_(std::move(watch)),
+        model_(std::move(model)),
         door_(options_.access, options_.tell, Clock::now()),
         waiting_(options_.max_waiting),
         answers_(options_.max_connections),
@@ -57,7 +57,7 @@ class Server final : public Station {
               downloads_,
               sockets_,
               options_.patience,
-              [this](std::string_view offered) { return choose_viewer(offered, watch_); },
+              [this](std::string_view offered) { return choose_viewer(offered, model_); },
               [this](auto session) { clients_.push_back(std::move(session)); },
               [this](auto ready) { desk_.ask(Clock::now(), std::move(ready)); }} {}
 
@@ -125,20 +125,20 @@ class Server final : public Station {
     timer_.expires_after(options_.tick);
     timer_.async_wait([this](boost::system::error_code error) {
       if (error) return;
-      look();
+      poll();
       tick();
     });
   }
 
-  void look() {
+  void poll() {
     std::erase_if(clients_, [](const auto& client) { return !client->is_open(); });
-    const MapWatch::Look look = watch_.look();
+    const MapModel::Update update = model_.poll();
     const auto now = Clock::now();
     desk_.tidy(now);
     const auto shows_depth = [](const auto& client) { return client->viewer().wants_depth(); };
-    if (std::ranges::any_of(clients_, shows_depth)) watch_.ask_for_depth();
+    if (std::ranges::any_of(clients_, shows_depth)) model_.ask_for_depth();
     for (const auto& client : clients_) {
-      client->viewer().saw(look);
+      client->viewer().saw(update);
       client->viewer().count(static_cast<std::uint32_t>(clients_.size()));
       client->check(now);
       client->pump();
@@ -146,7 +146,7 @@ class Server final : public Station {
   }
 
   StationOptions options_;
-  MapWatch watch_;
+  MapModel model_;
   Door door_;
   WaitingRoom waiting_;
   std::size_t sent_away_ = 0;
@@ -159,14 +159,14 @@ class Server final : public Station {
   asio::steady_timer timer_{io_};
   asio::steady_timer pause_{io_};
   std::vector<std::shared_ptr<SocketSession>> clients_;
-  MapDesk desk_{io_, watch_, options_.save_map, options_.max_download_bytes};
+  MapDesk desk_{io_, model_, options_.save_map, options_.max_download_bytes};
   std::thread thread_;
 };
 
 }  // namespace
 
-Expected<std::unique_ptr<Station>> start_server(const StationOptions& options, MapWatch watch) {
-  auto server = std::make_unique<Server>(options, std::move(watch));
+Expected<std::unique_ptr<Station>> start_server(const StationOptions& options, MapModel model) {
+  auto server = std::make_unique<Server>(options, std::move(model));
   if (auto listening = server->listen(); !listening) return forward_error(std::move(listening));
   return server;
 }

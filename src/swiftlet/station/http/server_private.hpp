@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "swiftlet/station/map_watch.hpp"
+#include "swiftlet/station/map_model.hpp"
 #include "swiftlet/station/station.hpp"
 #include "swiftlet/station/viewer.hpp"
 
@@ -16,7 +16,7 @@ namespace swiftlet::station {
 /// A language that a WebSocket client may ask for by name.
 struct Subprotocol {
   std::string_view name;
-  std::unique_ptr<Viewer> (*make)(const MapWatch& watch);
+  std::unique_ptr<Viewer> (*make)(const MapModel& model);
   std::size_t max_message;  ///< from the client [bytes]
   double messages_per_s;    ///< from the client
 };
@@ -25,6 +25,6 @@ struct Subprotocol {
 
 /// What is behind Station::start(): all that needs Boost.
 [[nodiscard]] Expected<std::unique_ptr<Station>> start_server(const StationOptions& options,
-                                                              MapWatch watch);
+                                                              MapModel model);
 
 }  // namespace swiftlet::station

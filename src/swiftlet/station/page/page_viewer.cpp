@@ -21,30 +21,30 @@ constexpr std::uint32_t kLeastRate = 2000;  // [bytes/s]: less than that shows n
 
 class PageViewer final : public Viewer {
  public:
-  explicit PageViewer(const MapWatch& watch) : watch_(watch) { queue_.start_again(watch.map()); }
+  explicit PageViewer(const MapModel& model) : model_(model) { queue_.start_again(model.map()); }
 
-  void saw(const MapWatch::Look& look) override {
-    if (look.is_new_world) {
+  void saw(const MapModel::Update& update) override {
+    if (update.is_new_world) {
       needs_hello_ = true;
       frames_.clear();
-      queue_.start_again(watch_.map());
+      queue_.start_again(model_.map());
     } else {
-      queue_.mark(look.changed, watch_.map());
+      queue_.mark(update.changed, model_.map());
     }
-    is_confirmed_ = is_confirmed_ && look.changed.empty() && !look.is_new_world;
-    for (const FrameReport& frame : look.frames) frames_.push_back(frame);
+    is_confirmed_ = is_confirmed_ && update.changed.empty() && !update.is_new_world;
+    for (const FrameReport& frame : update.frames) frames_.push_back(frame);
     while (frames_.size() > kFramesKept) frames_.pop_front();
   }
 
   void count(std::uint32_t clients) override { clients_ = clients; }
 
   std::optional<Outgoing> next(Time now) override {
-    if (needs_hello_ && watch_.world() > 0) {
+    if (needs_hello_ && model_.world() > 0) {
       needs_hello_ = false;
-      const std::string text = hello_text(watch_.info(), watch_.world());
+      const std::string text = hello_text(model_.info(), model_.world());
       return Outgoing{true, Bytes(text.begin(), text.end())};
     }
-    if (watch_.world() == 0 || pace_ == Pace::kHold || !bucket_.is_open(now)) return std::nullopt;
+    if (model_.world() == 0 || pace_ == Pace::kHold || !bucket_.is_open(now)) return std::nullopt;
     Bytes message = next_message(now);
     if (message.empty()) return std::nullopt;
     bucket_.spend(static_cast<double>(message.size()));
@@ -56,10 +56,10 @@ class PageViewer final : public Viewer {
     auto message = parse_client_message(bytes);
     if (!message) return forward_error(std::move(message));
     if (const auto* resend = std::get_if<Resend>(&*message)) {
-      queue_.resend(resend->first, resend->last, watch_.map());
+      queue_.resend(resend->first, resend->last, model_.map());
       is_confirmed_ = false;
     } else if (std::holds_alternative<SendAll>(*message)) {
-      queue_.start_again(watch_.map());
+      queue_.start_again(model_.map());
       is_confirmed_ = false;
     } else if (const auto* pace = std::get_if<SetPace>(&*message)) {
       pace_ = pace->pace;
@@ -90,7 +90,7 @@ class PageViewer final : public Viewer {
     if (is_confirmed_) return {};
     is_confirmed_ = true;
     if (pace_ == Pace::kStep) pace_ = Pace::kHold;
-    return checksum_message(header(), watch_.map().frame_count(), watch_.map().digest());
+    return checksum_message(header(), model_.map().frame_count(), model_.map().digest());
   }
 
   Bytes next_frames() {
@@ -101,24 +101,24 @@ class PageViewer final : public Viewer {
   }
 
   Bytes next_blocks() {
-    ClientQueue::Batch batch = queue_.next(watch_.centre());
+    ClientQueue::Batch batch = queue_.next(model_.centre());
     const MessageHeader head = header();
-    Bytes message = packer_.blocks_message(head, batch, watch_.map());
+    Bytes message = packer_.blocks_message(head, batch, model_.map());
     queue_.sent(head.sequence, std::move(batch));
     return message;
   }
 
-  MessageHeader header() { return {sequence_++, watch_.world()}; }
+  MessageHeader header() { return {sequence_++, model_.world()}; }
 
   StatusReport status() const {
-    StatusReport status = watch_.status();
+    StatusReport status = model_.status();
     status.pending = static_cast<std::uint32_t>(queue_.pending());
     status.clients = clients_;
     status.rate_limit = rate_;
     return status;
   }
 
-  const MapWatch& watch_;
+  const MapModel& model_;
   ClientQueue queue_;
   BlockPacker packer_;
   TokenBucket bucket_;
@@ -135,8 +135,8 @@ class PageViewer final : public Viewer {
 
 }  // namespace
 
-std::unique_ptr<Viewer> make_page_viewer(const MapWatch& watch) {
-  return std::make_unique<PageViewer>(watch);
+std::unique_ptr<Viewer> make_page_viewer(const MapModel& model) {
+  return std::make_unique<PageViewer>(model);
 }
 
 }  // namespace swiftlet::station

@@ -109,13 +109,13 @@ std::vector<BlockIndex> MapMirror::take_changes() {
     if (const auto found = entries_.find(index); found != entries_.end())
       found->second.is_changed = false;
   }
-  // A block that went and came back within one look is listed twice.
+  // A block that went and came back between two polls is listed twice.
   std::ranges::sort(changes_);
   changes_.erase(std::unique(changes_.begin(), changes_.end()), changes_.end());
   return std::exchange(changes_, {});
 }
 
-/// A tenth more than must be, so that this does not happen at every look.
+/// A tenth more than must be, so that this does not happen at every poll.
 void MapMirror::forget_far_blocks() {
   const auto distance = [&](const BlockIndex& b) {
     const BlockIndex end = window_.end();

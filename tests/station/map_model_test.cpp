@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/station/map_watch.hpp"
+#include "swiftlet/station/map_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,30 +12,30 @@
 namespace swiftlet::station {
 namespace {
 
-TEST(MapWatch, knows_exactly_the_map_inside_the_window_and_what_left_it) {
+TEST(MapModel, knows_exactly_the_map_inside_the_window_and_what_left_it) {
   test::Random random;
   RandomFlight flight(random);
-  MapWatch watch(flight.feed);
+  MapModel model(flight.feed);
   for (int i = 0; i < 300; ++i) {
     flight.step();
     if (random.chance(0.6)) continue;  // many frames between two looks
-    (void)watch.look();
-    ASSERT_EQ(watch.map().digest(), flight.truth()) << "frame " << i << ", " << random.repeat();
+    (void)model.poll();
+    ASSERT_EQ(model.map().digest(), flight.truth()) << "frame " << i << ", " << random.repeat();
   }
 }
 
-TEST(MapWatch, names_every_block_that_changed) {
+TEST(MapModel, names_every_block_that_changed) {
   test::Random random;
   RandomFlight flight(random);
-  MapWatch watch(flight.feed);
+  MapModel model(flight.feed);
   std::unordered_map<BlockIndex, VoxelBlock, BlockHash> before;
   for (int i = 0; i < 60; ++i) {
     flight.step();
-    const MapWatch::Look look = watch.look();
-    const std::set<BlockIndex> changed(look.changed.begin(), look.changed.end());
-    EXPECT_EQ(changed.size(), look.changed.size()) << "each once";
+    const MapModel::Update update = model.poll();
+    const std::set<BlockIndex> changed(update.changed.begin(), update.changed.end());
+    EXPECT_EQ(changed.size(), update.changed.size()) << "each once";
     std::unordered_map<BlockIndex, VoxelBlock, BlockHash> now;
-    watch.map().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
+    model.map().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
       now.emplace(index, block);
       const auto old = before.find(index);
       const bool is_same = old != before.end() && old->second == block;
@@ -48,66 +48,66 @@ TEST(MapWatch, names_every_block_that_changed) {
   }
 }
 
-TEST(MapWatch, shows_the_trigger_box_where_the_window_was_moved_to) {
+TEST(MapModel, shows_the_trigger_box_where_the_window_was_moved_to) {
   test::Random random;
   RandomFlight flight(random);
   flight.step();
-  MapWatch watch(flight.feed);
-  (void)watch.look();
+  MapModel model(flight.feed);
+  (void)model.poll();
   FrameReport ahead;
   ahead.has_shifted = true;
   ahead.T_world_camera =
       Transform<World, Camera>::trusted(Eigen::Quaterniond::Identity(), {1.0, 2.0, 0.5});
   flight.feed.report(ahead);
-  (void)watch.look();
-  EXPECT_EQ(watch.status().trigger_centre_m, Eigen::Vector3d(1.0, 2.0, 0.5));
+  (void)model.poll();
+  EXPECT_EQ(model.status().trigger_centre_m, Eigen::Vector3d(1.0, 2.0, 0.5));
   ahead.window_goal = {4.0, 2.0, 0.5};  // map.lookahead_s
   flight.feed.report(ahead);
-  (void)watch.look();
-  EXPECT_EQ(watch.status().trigger_centre_m, Eigen::Vector3d(4.0, 2.0, 0.5));
+  (void)model.poll();
+  EXPECT_EQ(model.status().trigger_centre_m, Eigen::Vector3d(4.0, 2.0, 0.5));
 }
 
-TEST(MapWatch, begins_anew_with_a_new_world) {
+TEST(MapModel, begins_anew_with_a_new_world) {
   test::Random random;
   RandomFlight first(random);
-  MapWatch watch(first.feed);
-  EXPECT_EQ(watch.world(), 0U);
-  EXPECT_EQ(watch.state(), FlightState::kWaiting);
+  MapModel model(first.feed);
+  EXPECT_EQ(model.world(), 0U);
+  EXPECT_EQ(model.state(), FlightState::kWaiting);
   first.step();
-  EXPECT_TRUE(watch.look().is_new_world);
-  EXPECT_EQ(watch.state(), FlightState::kFlying);
-  EXPECT_GT(watch.map().digest().blocks, 0U);
+  EXPECT_TRUE(model.poll().is_new_world);
+  EXPECT_EQ(model.state(), FlightState::kFlying);
+  EXPECT_GT(model.map().digest().blocks, 0U);
 
   auto other = *RollingMap::create({});
   first.feed.begin_world(other.reader(), small_info());
   FrameReport report;
   report.number = 7;
   first.feed.report(report);
-  const MapWatch::Look look = watch.look();
-  EXPECT_TRUE(look.is_new_world);
-  EXPECT_EQ(watch.world(), 2U);
-  EXPECT_EQ(watch.map().digest(), MapDigest{});
-  ASSERT_EQ(look.frames.size(), 1U);
-  EXPECT_EQ(look.frames[0].number, 7U);
+  const MapModel::Update update = model.poll();
+  EXPECT_TRUE(update.is_new_world);
+  EXPECT_EQ(model.world(), 2U);
+  EXPECT_EQ(model.map().digest(), MapDigest{});
+  ASSERT_EQ(update.frames.size(), 1U);
+  EXPECT_EQ(update.frames[0].number, 7U);
   first.feed.finish();
-  EXPECT_EQ(watch.state(), FlightState::kOver);
+  EXPECT_EQ(model.state(), FlightState::kOver);
 }
 
-TEST(MapWatch, counts_frames_by_verdict_and_keeps_what_was_lost) {
+TEST(MapModel, counts_frames_by_verdict_and_keeps_what_was_lost) {
   LiveFeed feed;
   auto map = *RollingMap::create({});
   feed.begin_world(map.reader(), small_info());
-  MapWatch watch(feed);
+  MapModel model(feed);
   FrameReport report;
   for (const int verdict : {0, 1, 1, 77}) {  // a verdict without a name is not counted
     report.verdict = static_cast<std::uint8_t>(verdict);
     feed.report(report);
   }
-  EXPECT_EQ(watch.look().frames.size(), 4U);
-  EXPECT_EQ(watch.status().verdicts, (std::vector<std::uint32_t>{1, 2}));
-  EXPECT_EQ(watch.status().losses, (std::vector<std::uint32_t>{0, 0}));
+  EXPECT_EQ(model.poll().frames.size(), 4U);
+  EXPECT_EQ(model.status().verdicts, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(model.status().losses, (std::vector<std::uint32_t>{0, 0}));
   feed.lost({0, 5});  // while no frame comes
-  EXPECT_EQ(watch.status().losses, (std::vector<std::uint32_t>{0, 5}));
+  EXPECT_EQ(model.status().losses, (std::vector<std::uint32_t>{0, 5}));
 }
 
 TEST(MapMirror, forgets_far_blocks_and_never_those_of_the_window) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/station/map_watch.hpp"
+#include "swiftlet/station/map_model.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -26,14 +26,14 @@ BlockIndex middle_of(const MapMirror& map) {
 
 }  // namespace
 
-MapWatch::MapWatch(MapInfo info, MapMirror map)
+MapModel::MapModel(MapInfo info, MapMirror map)
     : world_(1), info_(std::move(info)), map_(std::move(map)), centre_(middle_of(map_)) {}
 
-MapWatch::Look MapWatch::look() {
-  Look look;
-  if (feed_ == nullptr) return look;
+MapModel::Update MapModel::poll() {
+  Update update;
+  if (feed_ == nullptr) return update;
   if (auto begun = feed_->world_after(world_)) {
-    look.is_new_world = true;
+    update.is_new_world = true;
     world_ = begun->number;
     info_ = std::move(begun->info);
     reader_ = std::move(begun->reader);
@@ -42,22 +42,22 @@ MapWatch::Look MapWatch::look() {
     verdicts_.assign(info_.verdicts.size(), 0);
   }
   for (const auto& gone : feed_->take_evicted()) map_.put(gone.index, gone.block, gone.version);
-  for (const FrameReport& frame : std::exchange(early_, {})) book(frame, look);
-  feed_->take_reports([&](const FrameReport& frame) { book(frame, look); });
-  look.has_depth = feed_->take_depth(depth_);
+  for (const FrameReport& frame : std::exchange(early_, {})) book(frame, update);
+  feed_->take_reports([&](const FrameReport& frame) { book(frame, update); });
+  update.has_depth = feed_->take_depth(depth_);
   if (reader_) {
     if (const auto snapshot = reader_->latest(); snapshot && snapshot->frame_count() > 0) {
       map_.update(*snapshot);
     }
   }
-  look.changed = map_.take_changes();
-  return look;
+  update.changed = map_.take_changes();
+  return update;
 }
 
-void MapWatch::book(const FrameReport& frame, Look& look) {
+void MapModel::book(const FrameReport& frame, Update& update) {
   if (frame.world > world_) early_.push_back(frame);
   if (frame.world != world_) return;
-  look.frames.push_back(frame);
+  update.frames.push_back(frame);
   if (frame.verdict < verdicts_.size()) ++verdicts_[frame.verdict];
   last_frame_ = frame;
   const Eigen::Vector3d& p_world = frame.T_world_camera.translation();
@@ -68,13 +68,13 @@ void MapWatch::book(const FrameReport& frame, Look& look) {
   }
 }
 
-FlightState MapWatch::state() const {
+FlightState MapModel::state() const {
   if (feed_ == nullptr) return FlightState::kSaved;
   if (feed_->is_over()) return FlightState::kOver;
   return map_.frame_count() > 0 ? FlightState::kFlying : FlightState::kWaiting;
 }
 
-StatusReport MapWatch::status() const {
+StatusReport MapModel::status() const {
   StatusReport status;
   status.state = state();
   status.window = map_.window();

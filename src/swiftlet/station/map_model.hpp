@@ -16,21 +16,21 @@ namespace swiftlet::station {
 /// What the station knows: the map, the flight, and how both stand. Looks at them when it is told
 /// to and says what has changed since.
 /// Thread safety: the station's thread alone.
-class MapWatch {
+class MapModel {
  public:
   /// Watches a flight. The feed must outlive this.
-  explicit MapWatch(LiveFeed& feed) : feed_(&feed) {}
+  explicit MapModel(LiveFeed& feed) : feed_(&feed) {}
   /// Shows a saved map.
-  MapWatch(MapInfo info, MapMirror map);
+  MapModel(MapInfo info, MapMirror map);
 
-  /// What is new since the last look.
-  struct Look {
+  /// What is new since the last poll.
+  struct Update {
     bool is_new_world = false;
     std::vector<BlockIndex> changed;
     std::vector<FrameReport> frames;
     bool has_depth = false;  ///< depth() is new
   };
-  [[nodiscard]] Look look();
+  [[nodiscard]] Update poll();
 
   [[nodiscard]] std::uint32_t world() const { return world_; }  ///< 0: none has begun
   [[nodiscard]] const MapInfo& info() const { return info_; }
@@ -49,7 +49,7 @@ class MapWatch {
   [[nodiscard]] StatusReport status() const;
 
  private:
-  void book(const FrameReport& frame, Look& look);
+  void book(const FrameReport& frame, Update& update);
 
   LiveFeed* feed_ = nullptr;  // null: a saved map
   std::optional<MapReader> reader_;
@@ -57,7 +57,7 @@ class MapWatch {
   MapInfo info_;
   MapMirror map_;
   std::optional<FrameReport> last_frame_;
-  std::vector<FrameReport> early_;  // of a world that look() has not come to yet
+  std::vector<FrameReport> early_;  // of a world that poll() has not come to yet
   std::vector<std::uint32_t> verdicts_;
   DepthImage depth_;
   Eigen::Vector3d trigger_centre_m_ = Eigen::Vector3d::Zero();
