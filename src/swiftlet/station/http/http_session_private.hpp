@@ -14,7 +14,7 @@
 
 #include "swiftlet/station/http/door.hpp"
 #include "swiftlet/station/http/http_answer.hpp"
-#include "swiftlet/station/http/map_desk_private.hpp"
+#include "swiftlet/station/http/map_download_private.hpp"
 #include "swiftlet/station/http/socket_session_private.hpp"
 #include "swiftlet/station/http/waiting_room.hpp"
 #include "swiftlet/station/places.hpp"
@@ -39,7 +39,7 @@ struct HttpHost {
   };
   std::function<std::optional<Chosen>(std::string_view offered)> choose;
   std::function<void(std::shared_ptr<SocketSession>)> opened;
-  std::function<void(MapDesk::Ready)> fetch_map;
+  std::function<void(MapDownload::Ready)> fetch_map;
 };
 
 /// One connection: answers plain requests, and turns into a SocketSession when asked to. Does

@@ -59,7 +59,7 @@ class Server final : public Station {
               options_.patience,
               [this](std::string_view offered) { return choose_viewer(offered, model_); },
               [this](auto session) { clients_.push_back(std::move(session)); },
-              [this](auto ready) { desk_.ask(Clock::now(), std::move(ready)); }} {}
+              [this](auto ready) { download_.ask(Clock::now(), std::move(ready)); }} {}
 
   ~Server() override {
     io_.stop();
@@ -134,7 +134,7 @@ class Server final : public Station {
     std::erase_if(clients_, [](const auto& client) { return !client->is_open(); });
     const MapModel::Update update = model_.poll();
     const auto now = Clock::now();
-    desk_.tidy(now);
+    download_.tidy(now);
     const auto shows_depth = [](const auto& client) { return client->viewer().wants_depth(); };
     if (std::ranges::any_of(clients_, shows_depth)) model_.ask_for_depth();
     for (const auto& client : clients_) {
@@ -159,7 +159,7 @@ class Server final : public Station {
   asio::steady_timer timer_{io_};
   asio::steady_timer pause_{io_};
   std::vector<std::shared_ptr<SocketSession>> clients_;
-  MapDesk desk_{io_, model_, options_.save_map, options_.max_download_bytes};
+  MapDownload download_{io_, model_, options_.save_map, options_.max_download_bytes};
   std::thread thread_;
 };
 

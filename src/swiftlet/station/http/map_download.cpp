@@ -5,7 +5,7 @@
 #include <boost/asio/post.hpp>
 #include <utility>
 
-#include "swiftlet/station/http/map_desk_private.hpp"
+#include "swiftlet/station/http/map_download_private.hpp"
 #include "swiftlet/station/station.hpp"
 
 namespace swiftlet::station {
@@ -15,7 +15,7 @@ constexpr std::chrono::seconds kFresh{1};
 
 }  // namespace
 
-void MapDesk::ask(Time now, Ready ready) {
+void MapDownload::ask(Time now, Ready ready) {
   if (!saver_) {
     ready(fail(ErrorCode::kUnsupported, "map file", "this station has none to give"));
     return;
@@ -47,7 +47,7 @@ void MapDesk::ask(Time now, Ready ready) {
   });
 }
 
-void MapDesk::made(Expected<std::vector<std::uint8_t>>&& file) {
+void MapDownload::made(Expected<std::vector<std::uint8_t>>&& file) {
   last_ = std::move(file).map([](std::vector<std::uint8_t>&& bytes) -> SharedBytes {
     return std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
   });
@@ -59,7 +59,7 @@ void MapDesk::made(Expected<std::vector<std::uint8_t>>&& file) {
   for (const Ready& ready : std::exchange(waiting_, {})) ready(*last_);
 }
 
-std::size_t MapDesk::held_bytes() const {
+std::size_t MapDownload::held_bytes() const {
   std::size_t bytes = 0;
   for (const auto& file : files_) {
     if (const auto held = file.lock()) bytes += held->size();
@@ -67,7 +67,7 @@ std::size_t MapDesk::held_bytes() const {
   return bytes;
 }
 
-void MapDesk::tidy(Time now) {
+void MapDownload::tidy(Time now) {
   if (waiting_.empty() && now - last_at_ >= kFresh) last_.reset();
 }
 

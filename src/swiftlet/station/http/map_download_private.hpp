@@ -21,18 +21,18 @@ namespace swiftlet::station {
 /// copy of the map and one file a second at most. Files that somebody is still taking are counted:
 /// where they would need more than their share of memory, no other is made until they are gone.
 /// Thread safety: the station's thread alone.
-class MapDesk {
+class MapDownload {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Ready = std::function<void(const Expected<SharedBytes>&)>;
 
   /// All must outlive it. `saver` may be empty: then there is nothing to hand out.
-  MapDesk(boost::asio::io_context& io, const MapModel& model, const MapSaver& saver,
-          std::size_t max_bytes)
+  MapDownload(boost::asio::io_context& io, const MapModel& model, const MapSaver& saver,
+              std::size_t max_bytes)
       : io_(io), model_(model), saver_(saver), max_bytes_(max_bytes) {}
-  ~MapDesk() { worker_.join(); }
-  MapDesk(const MapDesk&) = delete;
-  MapDesk& operator=(const MapDesk&) = delete;
+  ~MapDownload() { worker_.join(); }
+  MapDownload(const MapDownload&) = delete;
+  MapDownload& operator=(const MapDownload&) = delete;
 
   /// Calls back from the station's thread, at once or later. Errors: kUnsupported without a saver,
   /// kNotFound before the first frame, kOutOfMemory while others take too many files, those of the
