@@ -55,15 +55,15 @@ void ask(std::string_view text) {
 
 /// Length-prefixed messages, each with a bit that says whether it is a text.
 void talk(const Subprotocol& language, const std::uint8_t* data, std::size_t size) {
-  const auto viewer = language.make(small_map());
-  Viewer::Time now{};
+  const auto protocol = language.make(small_map());
+  ClientProtocol::Time now{};
   while (size > 1) {
     const std::size_t length = std::min<std::size_t>(data[0] & 0x7fU, size - 1);
-    if (!viewer->received((data[0] & 0x80U) != 0, {data + 1, length}, now)) return;
+    if (!protocol->received((data[0] & 0x80U) != 0, {data + 1, length}, now)) return;
     data += 1 + length;
     size -= 1 + length;
     now += std::chrono::milliseconds(50);
-    for (int i = 0; i < 4; ++i) (void)viewer->next(now);
+    for (int i = 0; i < 4; ++i) (void)protocol->next(now);
   }
 }
 

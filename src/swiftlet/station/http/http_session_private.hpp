@@ -30,10 +30,10 @@ struct HttpHost {
   const Places& downloads;  ///< of the map file, among them
   const Places& sockets;
   std::chrono::milliseconds patience;  ///< with a request
-  /// A viewer for one of the subprotocols offered, and the one that was chosen; nullopt if none of
-  /// them is spoken here.
+  /// A protocol for one of the subprotocols offered, and the one that was chosen; nullopt if none
+  /// of them is spoken here.
   struct Chosen {
-    std::unique_ptr<Viewer> viewer;
+    std::unique_ptr<ClientProtocol> protocol;
     std::string subprotocol;
     SocketSession::Limits limits;
   };

@@ -20,7 +20,7 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 
 /// Picks from "a, b" what this server speaks; a client that offers nothing gets nothing.
-std::optional<HttpHost::Chosen> choose_viewer(std::string_view offered, const MapModel& model) {
+std::optional<HttpHost::Chosen> choose_protocol(std::string_view offered, const MapModel& model) {
   while (!offered.empty()) {
     const auto end = std::min(offered.find(','), offered.size());
     std::string_view name = offered.substr(0, end);
@@ -57,7 +57,7 @@ class Server final : public Station {
               downloads_,
               sockets_,
               options_.patience,
-              [this](std::string_view offered) { return choose_viewer(offered, model_); },
+              [this](std::string_view offered) { return choose_protocol(offered, model_); },
               [this](auto session) { clients_.push_back(std::move(session)); },
               [this](auto ready) { download_.ask(Clock::now(), std::move(ready)); }} {}
 
@@ -135,11 +135,11 @@ class Server final : public Station {
     const MapModel::Update update = model_.poll();
     const auto now = Clock::now();
     download_.tidy(now);
-    const auto shows_depth = [](const auto& client) { return client->viewer().wants_depth(); };
+    const auto shows_depth = [](const auto& client) { return client->protocol().wants_depth(); };
     if (std::ranges::any_of(clients_, shows_depth)) model_.ask_for_depth();
     for (const auto& client : clients_) {
-      client->viewer().saw(update);
-      client->viewer().count(static_cast<std::uint32_t>(clients_.size()));
+      client->protocol().saw(update);
+      client->protocol().count(static_cast<std::uint32_t>(clients_.size()));
       client->check(now);
       client->pump();
     }

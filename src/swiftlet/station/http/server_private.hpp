@@ -7,20 +7,20 @@
 #include <span>
 #include <string_view>
 
+#include "swiftlet/station/client_protocol.hpp"
 #include "swiftlet/station/map_model.hpp"
 #include "swiftlet/station/station.hpp"
-#include "swiftlet/station/viewer.hpp"
 
 namespace swiftlet::station {
 
 /// A language that a WebSocket client may ask for by name.
 struct Subprotocol {
   std::string_view name;
-  std::unique_ptr<Viewer> (*make)(const MapModel& model);
+  std::unique_ptr<ClientProtocol> (*make)(const MapModel& model);
   std::size_t max_message;  ///< from the client [bytes]
   double messages_per_s;    ///< from the client
 };
-/// The table of them: a protocol is a Viewer and a line there.
+/// The table of them: a protocol is a ClientProtocol and a line there.
 [[nodiscard]] std::span<const Subprotocol> subprotocols();
 
 /// What is behind Station::start(): all that needs Boost.

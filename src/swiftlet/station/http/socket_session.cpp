@@ -68,7 +68,7 @@ void SocketSession::received(std::size_t size) {
   allowance_.spend(1.0);
   const auto data = inbox_.data();
   const std::span bytes(static_cast<const std::uint8_t*>(data.data()), size);
-  const Status understood = viewer_->received(socket_.got_text(), bytes, now);
+  const Status understood = protocol_->received(socket_.got_text(), bytes, now);
   inbox_.consume(inbox_.size());
   if (!understood) {
     close(websocket::close_code::protocol_error, understood.error().text());
@@ -92,7 +92,7 @@ void SocketSession::count_control_frame() {
 
 void SocketSession::pump() {
   if (is_writing_ || !is_open_) return;
-  auto message = viewer_->next(Clock::now());
+  auto message = protocol_->next(Clock::now());
   if (!message) return;
   going_ = std::move(*message);
   is_writing_ = true;
@@ -109,7 +109,7 @@ void SocketSession::pump() {
                       });
 }
 
-void SocketSession::check(Viewer::Time now) {
+void SocketSession::check(ClientProtocol::Time now) {
   if (is_open_ && is_writing_ && now - since_ > limits_.stall) drop();
 }
 

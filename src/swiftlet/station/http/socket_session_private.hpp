@@ -11,15 +11,15 @@
 #include <memory>
 #include <string>
 
+#include "swiftlet/station/client_protocol.hpp"
 #include "swiftlet/station/state/token_bucket.hpp"
-#include "swiftlet/station/viewer.hpp"
 
 namespace swiftlet::station {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
-/// One WebSocket: carries what its viewer wants sent, one message at a time, and hands on what the
-/// client says. A client that does not keep to the rules, or takes nothing for long, is closed.
+/// One WebSocket: carries what its protocol wants sent, one message at a time, and hands on what
+/// the client says. A client that does not keep to the rules, or takes nothing for long, is closed.
 class SocketSession : public std::enable_shared_from_this<SocketSession> {
  public:
   struct Limits {
@@ -30,10 +30,10 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   };
 
   /// Holds `place` for as long as it lives.
-  SocketSession(boost::beast::tcp_stream&& stream, std::unique_ptr<Viewer> viewer,
+  SocketSession(boost::beast::tcp_stream&& stream, std::unique_ptr<ClientProtocol> protocol,
                 const Limits& limits, std::shared_ptr<void> place)
       : socket_(std::move(stream)),
-        viewer_(std::move(viewer)),
+        protocol_(std::move(protocol)),
         limits_(limits),
         place_(std::move(place)) {}
 
@@ -43,9 +43,9 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   /// Sends what there is to send, unless a message is still on its way.
   void pump();
   /// Once a tick: closes a client that takes nothing.
-  void check(Viewer::Time now);
+  void check(ClientProtocol::Time now);
   [[nodiscard]] bool is_open() const { return is_open_; }
-  [[nodiscard]] Viewer& viewer() { return *viewer_; }
+  [[nodiscard]] ClientProtocol& protocol() { return *protocol_; }
 
  private:
   void read();
@@ -56,13 +56,13 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   boost::beast::flat_buffer inbox_;
-  std::unique_ptr<Viewer> viewer_;
+  std::unique_ptr<ClientProtocol> protocol_;
   Limits limits_;
   std::shared_ptr<void> place_;
   TokenBucket allowance_;
   TokenBucket control_allowance_;
   Outgoing going_;  // while it is being written
-  Viewer::Time since_{};
+  ClientProtocol::Time since_{};
   bool is_writing_ = false;
   bool is_open_ = false;
 };

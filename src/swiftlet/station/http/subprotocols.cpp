@@ -15,10 +15,10 @@ constexpr std::size_t kMaxFoxgloveMessage = std::size_t{16} * 1024;  // names of
 
 std::span<const Subprotocol> subprotocols() {
   static constexpr std::array kTable{
-      Subprotocol{kSubprotocol, make_page_viewer, kMaxClientMessage, 20.0},
+      Subprotocol{kSubprotocol, make_page_protocol, kMaxClientMessage, 20.0},
       // One protocol under its new and its old name.
-      Subprotocol{"foxglove.sdk.v1", make_foxglove_viewer, kMaxFoxgloveMessage, 100.0},
-      Subprotocol{"foxglove.websocket.v1", make_foxglove_viewer, kMaxFoxgloveMessage, 100.0},
+      Subprotocol{"foxglove.sdk.v1", make_foxglove_protocol, kMaxFoxgloveMessage, 100.0},
+      Subprotocol{"foxglove.websocket.v1", make_foxglove_protocol, kMaxFoxgloveMessage, 100.0},
   };
   return kTable;
 }

@@ -17,7 +17,7 @@
 
 namespace swiftlet::station {
 
-/// What a viewer must know of a map before its first cell. Numbers in frames and counters stand for
+/// What a client must know of a map before its first cell. Numbers in frames and counters stand for
 /// the names here, so that a page shows reasons which it was not written for.
 struct MapInfo {
   std::string source;   ///< where the frames or the map come from, for people

@@ -5,9 +5,9 @@
 #include <deque>
 #include <utility>
 
+#include "swiftlet/station/client_protocol.hpp"
 #include "swiftlet/station/page/client_message.hpp"
 #include "swiftlet/station/state/token_bucket.hpp"
-#include "swiftlet/station/viewer.hpp"
 
 namespace swiftlet::station {
 namespace {
@@ -19,9 +19,9 @@ constexpr std::size_t kFramesPerMessage = 64;
 constexpr auto kStatusEvery = 200ms;
 constexpr std::uint32_t kLeastRate = 2000;  // [bytes/s]: less than that shows nothing
 
-class PageViewer final : public Viewer {
+class PageProtocol final : public ClientProtocol {
  public:
-  explicit PageViewer(const MapModel& model) : model_(model) { queue_.start_again(model.map()); }
+  explicit PageProtocol(const MapModel& model) : model_(model) { queue_.start_again(model.map()); }
 
   void saw(const MapModel::Update& update) override {
     if (update.is_new_world) {
@@ -135,8 +135,8 @@ class PageViewer final : public Viewer {
 
 }  // namespace
 
-std::unique_ptr<Viewer> make_page_viewer(const MapModel& model) {
-  return std::make_unique<PageViewer>(model);
+std::unique_ptr<ClientProtocol> make_page_protocol(const MapModel& model) {
+  return std::make_unique<PageProtocol>(model);
 }
 
 }  // namespace swiftlet::station

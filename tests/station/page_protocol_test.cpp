@@ -7,23 +7,23 @@
 
 #include "station/station_world.hpp"
 #include "station/wire_reader.hpp"
-#include "swiftlet/station/viewer.hpp"
+#include "swiftlet/station/client_protocol.hpp"
 
 namespace swiftlet::station {
 namespace {
 
 using namespace std::chrono_literals;
-using Time = Viewer::Time;
+using Time = ClientProtocol::Time;
 
 const OccupancyThresholds kThresholds{};
 
-/// A viewer, its client, and a clock that only the test moves.
+/// A protocol, its client, and a clock that only the test moves.
 struct Conversation {
-  explicit Conversation(const MapModel& model) : viewer(make_page_viewer(model)) {}
+  explicit Conversation(const MapModel& model) : protocol(make_page_protocol(model)) {}
 
   /// The next message, whether it arrives or not; false if there is none for now.
   bool exchange(bool arrives = true) {
-    const auto message = viewer->next(now);
+    const auto message = protocol->next(now);
     if (!message) return false;
     if (message->is_text || !arrives) return true;
     const auto sequence = WireReader::at<std::uint32_t>(message->data, 4);
@@ -41,23 +41,23 @@ struct Conversation {
         message.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
       }
     }
-    EXPECT_TRUE(viewer->received(false, message, now));
+    EXPECT_TRUE(protocol->received(false, message, now));
   }
   MapDigest digest() const { return client.digest(kThresholds); }
 
-  std::unique_ptr<Viewer> viewer;
+  std::unique_ptr<ClientProtocol> protocol;
   WireReader client;
   Time now = Time{} + 1h;
 };
 
-TEST(PageViewer, brings_a_client_to_exactly_the_map_and_proves_it) {
+TEST(PageProtocol, brings_a_client_to_exactly_the_map_and_proves_it) {
   test::Random random;
   RandomFlight flight(random);
   MapModel model(flight.feed);
   Conversation pair(model);
   for (int i = 0; i < 80; ++i) {
     flight.step();
-    pair.viewer->saw(model.poll());
+    pair.protocol->saw(model.poll());
     if (random.chance(0.5)) pair.exchange_all();
     pair.now += 50ms;
   }
@@ -67,39 +67,39 @@ TEST(PageViewer, brings_a_client_to_exactly_the_map_and_proves_it) {
   EXPECT_EQ(pair.client.frame_numbers.size(), 80U);
 }
 
-TEST(PageViewer, heals_whatever_is_lost_on_the_way) {
+TEST(PageProtocol, heals_whatever_is_lost_on_the_way) {
   test::Random random;
   RandomFlight flight(random);
   MapModel model(flight.feed);
   Conversation pair(model);
   for (int i = 0; i < 150; ++i) {
     flight.step();
-    pair.viewer->saw(model.poll());
+    pair.protocol->saw(model.poll());
     while (pair.exchange(!random.chance(0.3))) {
     }
     pair.now += 50ms;
   }
   flight.step();
   for (int i = 0; i < 3; ++i) {  // a client notices a loss by the message after it
-    pair.viewer->saw(model.poll());
+    pair.protocol->saw(model.poll());
     pair.exchange_all();
     pair.now += 1s;
   }
   EXPECT_EQ(pair.digest(), model.map().digest()) << random.repeat();
 }
 
-TEST(PageViewer, sends_everything_again_when_a_loss_is_too_long_ago) {
+TEST(PageProtocol, sends_everything_again_when_a_loss_is_too_long_ago) {
   test::Random random;
   RandomFlight flight(random);
   MapModel model(flight.feed);
   Conversation pair(model);
   flight.step();
-  pair.viewer->saw(model.poll());
+  pair.protocol->saw(model.poll());
   pair.exchange_all();
   const auto packets = pair.client.next_sequence + 3 * ClientQueue::kPacketsRemembered;
   while (pair.client.next_sequence < packets) {
     flight.step();
-    pair.viewer->saw(model.poll());
+    pair.protocol->saw(model.poll());
     pair.exchange_all();
     pair.now += 1s;
   }
@@ -109,7 +109,7 @@ TEST(PageViewer, sends_everything_again_when_a_loss_is_too_long_ago) {
   EXPECT_EQ(pair.digest(), model.map().digest()) << random.repeat();
 }
 
-TEST(PageViewer, keeps_to_the_bandwidth_and_still_completes_the_map) {
+TEST(PageProtocol, keeps_to_the_bandwidth_and_still_completes_the_map) {
   test::Random random;
   RandomFlight flight(random);
   for (int i = 0; i < 40; ++i) flight.step();
@@ -118,7 +118,7 @@ TEST(PageViewer, keeps_to_the_bandwidth_and_still_completes_the_map) {
   Conversation pair(model);
   constexpr std::uint32_t kRate = 125'000;  // 1 Mbit/s
   pair.say({4, 0, 0, 0}, {kRate});
-  pair.viewer->saw(update);
+  pair.protocol->saw(update);
   const Time start = pair.now;
   while (!pair.client.checksum) {
     pair.exchange_all();
@@ -132,14 +132,14 @@ TEST(PageViewer, keeps_to_the_bandwidth_and_still_completes_the_map) {
   EXPECT_EQ(pair.digest(), model.map().digest()) << random.repeat();
 }
 
-TEST(PageViewer, a_slow_client_gets_fewer_updates_and_never_an_older_map) {
+TEST(PageProtocol, a_slow_client_gets_fewer_updates_and_never_an_older_map) {
   test::Random random;
   RandomFlight flight(random);
   MapModel model(flight.feed);
   Conversation pair(model);
   for (int i = 0; i < 200; ++i) {
     flight.step();
-    pair.viewer->saw(model.poll());
+    pair.protocol->saw(model.poll());
     pair.now += 50ms;
     (void)pair.exchange();  // one message a poll, far less than what changes
   }
@@ -147,7 +147,7 @@ TEST(PageViewer, a_slow_client_gets_fewer_updates_and_never_an_older_map) {
   pair.client.blocks.clear();
   const auto message = [&] {
     for (;;) {
-      auto next = pair.viewer->next(pair.now);
+      auto next = pair.protocol->next(pair.now);
       if (next && !next->is_text && next->data[0] == 1) return next->data;
     }
   }();
@@ -161,7 +161,7 @@ TEST(PageViewer, a_slow_client_gets_fewer_updates_and_never_an_older_map) {
   EXPECT_LE(pair.client.frame_numbers.size(), 600U) << "the frames that wait are bounded";
 }
 
-TEST(PageViewer, sends_the_blocks_nearest_to_the_vehicle_first) {
+TEST(PageProtocol, sends_the_blocks_nearest_to_the_vehicle_first) {
   MapInfo info = small_info();
   MapMirror map;
   VoxelBlock block;
@@ -175,7 +175,7 @@ TEST(PageViewer, sends_the_blocks_nearest_to_the_vehicle_first) {
   for (const auto& [index, cells] : pair.client.blocks) EXPECT_LE(std::abs(index.x), 32);
 }
 
-TEST(PageViewer, packs_blocks_that_lie_far_apart) {
+TEST(PageProtocol, packs_blocks_that_lie_far_apart) {
   MapMirror map;
   VoxelBlock block;
   block.clear();
@@ -190,14 +190,14 @@ TEST(PageViewer, packs_blocks_that_lie_far_apart) {
   EXPECT_EQ(pair.client.blocks.size(), 6U);
 }
 
-TEST(PageViewer, holds_and_steps) {
+TEST(PageProtocol, holds_and_steps) {
   test::Random random;
   RandomFlight flight(random);
   MapModel model(flight.feed);
   Conversation pair(model);
   const auto fly_on = [&] {
     flight.step();
-    pair.viewer->saw(model.poll());
+    pair.protocol->saw(model.poll());
     pair.now += 1s;
     pair.exchange_all();
   };

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "swiftlet/station/byte_writer.hpp"
+#include "swiftlet/station/client_protocol.hpp"
 #include "swiftlet/station/foxglove/foxglove_messages.hpp"
 #include "swiftlet/station/foxglove/foxglove_schemas.hpp"
-#include "swiftlet/station/viewer.hpp"
 
 namespace swiftlet::station {
 namespace {
@@ -52,9 +52,9 @@ json advertisement() {
 
 /// A client of the Foxglove WebSocket protocol. Of each channel it is sent the newest state when
 /// the one before has left, so that a slow client gets fewer of them.
-class FoxgloveViewer final : public Viewer {
+class FoxgloveProtocol final : public ClientProtocol {
  public:
-  explicit FoxgloveViewer(const MapModel& model) : model_(model) {}
+  explicit FoxgloveProtocol(const MapModel& model) : model_(model) {}
 
   void saw(const MapModel::Update& update) override {
     for (Subscription& s : subscriptions_) {
@@ -185,8 +185,8 @@ class FoxgloveViewer final : public Viewer {
 
 }  // namespace
 
-std::unique_ptr<Viewer> make_foxglove_viewer(const MapModel& model) {
-  return std::make_unique<FoxgloveViewer>(model);
+std::unique_ptr<ClientProtocol> make_foxglove_protocol(const MapModel& model) {
+  return std::make_unique<FoxgloveProtocol>(model);
 }
 
 }  // namespace swiftlet::station

@@ -21,10 +21,10 @@ struct Outgoing {
 
 /// One client, whatever it speaks: decides what it is sent next. Holds no socket.
 /// Thread safety: the station's thread alone.
-class Viewer {
+class ClientProtocol {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  virtual ~Viewer() = default;
+  virtual ~ClientProtocol() = default;
 
   /// The station has looked.
   virtual void saw(const MapModel::Update& update) = 0;
@@ -40,8 +40,8 @@ class Viewer {
 };
 
 /// A client of our own page's protocol. `model` must outlive it.
-[[nodiscard]] std::unique_ptr<Viewer> make_page_viewer(const MapModel& model);
+[[nodiscard]] std::unique_ptr<ClientProtocol> make_page_protocol(const MapModel& model);
 /// A client of the Foxglove WebSocket protocol: Foxglove, Lichtblick.
-[[nodiscard]] std::unique_ptr<Viewer> make_foxglove_viewer(const MapModel& model);
+[[nodiscard]] std::unique_ptr<ClientProtocol> make_foxglove_protocol(const MapModel& model);
 
 }  // namespace swiftlet::station
