@@ -47,6 +47,27 @@ TEST(Mapper, turns_frames_of_a_wall_into_free_air_and_an_occupied_wall) {
   EXPECT_EQ(occupancy_at(*snapshot, {-1.0, 0.1, 0.1}, config.occupancy), Occupancy::kUnknown);
 }
 
+TEST(Mapper, hands_out_snapshots_that_tell_their_frame_and_how_they_are_read) {
+  MapperConfig config;
+  config.occupancy = {90, 200};
+  config.integrate.logodds_per_step = 0.05;
+  Mapper mapper = new_mapper(config);
+  Frame frame = test::wall_frame(test::small_camera(80, 60), 3.02);
+  frame.stamp = {1'234'567};
+  ASSERT_EQ(mapper.integrate(frame).verdict, FrameVerdict::kIntegrated);
+  Frame bad = frame;
+  bad.stamp = {2'000'000};
+  bad.depth.raw.resize(0, 0);
+  ASSERT_NE(mapper.integrate(bad).verdict, FrameVerdict::kIntegrated);
+  const auto snapshot = mapper.snapshot();
+  ASSERT_TRUE(snapshot);
+  EXPECT_EQ(snapshot->stamp(), frame.stamp) << "of the newest frame that is in the map";
+  EXPECT_EQ(snapshot->T_world_camera().translation(), frame.T_world_camera.translation());
+  EXPECT_EQ(snapshot->scale(), (LogOddsScale{{90, 200}, 0.05}));
+  mapper.begin_world(1);
+  EXPECT_EQ(mapper.snapshot()->frame_count(), 0U);
+}
+
 // Half a cell of matter may be unknown; the next one is all matter.
 TEST(Mapper, lets_nobody_through_a_wall_wherever_it_stands_in_its_cell) {
   MapperConfig config;
