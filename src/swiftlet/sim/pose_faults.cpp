@@ -7,9 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "swiftlet/base/contract.hpp"
-#include "swiftlet/base/voxel_index.hpp"
-
 // One line a fault: its name, what it sets, and what that is.
 #define SWIFTLET_POSE_FAULTS(X)                                                          \
   X(nan, tracker.nan_chance = 0.03, "3 % of the poses are NaN")                          \
@@ -36,41 +33,18 @@ std::span<const Registered<ApplyFault>> pose_faults() {
 }
 
 FaultyTracker::FaultyTracker(Tracker tracker, const PoseFaults& faults, std::uint64_t seed)
-    : tracker_(std::move(tracker)), faults_(faults), random_(mix_bits(seed ^ 0xFA17)) {
+    : tracker_(std::move(tracker)), delivery_(faults, seed) {
   produce();
 }
 
-/// Fills the way until something is on it, or nothing ever will be.
+/// Sends samples until one is on its way, or none ever will be.
 void FaultyTracker::produce() {
-  while (on_the_way_.empty()) {
-    const bool is_dead = faults_.silence && faults_.silence->lasts == Nanoseconds::max() &&
-                         tracker_.next_stamp() >= faults_.silence->from;
-    if (is_dead) return;
-    RawTrackerPose pose = tracker_.next();
-    if (faults_.silence && pose.stamp >= faults_.silence->from &&
-        pose.stamp - faults_.silence->from < faults_.silence->lasts)
-      continue;
-    on_the_way_.push_back({pose.stamp + faults_.arrives_late, pose});
-    if (faults_.swap_chance > 0.0 &&
-        std::uniform_real_distribution<double>()(random_) < faults_.swap_chance) {
-      pose = tracker_.next();
-      on_the_way_.push_back({pose.stamp + faults_.arrives_late, pose});
-      std::swap(on_the_way_[0].pose.stamp, on_the_way_[1].pose.stamp);
-    }
-    for (Arrival& arrival : on_the_way_)
-      arrival.pose.stamp = arrival.pose.stamp + faults_.stamped_late;
-  }
-}
-
-std::optional<Stamp> FaultyTracker::next_arrival() const {
-  if (on_the_way_.empty()) return std::nullopt;
-  return on_the_way_.front().at;
+  while (!delivery_.next_arrival() && !delivery_.is_dead(tracker_.next_stamp()))
+    delivery_.send(tracker_.next());
 }
 
 RawTrackerPose FaultyTracker::next() {
-  SWIFTLET_REQUIRE(!on_the_way_.empty(), "a dead tracker says nothing");
-  RawTrackerPose pose = on_the_way_.front().pose;
-  on_the_way_.pop_front();
+  const RawTrackerPose pose = delivery_.take();
   produce();
   return pose;
 }
