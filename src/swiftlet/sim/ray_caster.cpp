@@ -3,11 +3,6 @@
 
 #include "swiftlet/sim/ray_caster.hpp"
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +11,7 @@
 #include <vector>
 
 #include "swiftlet/base/contract.hpp"
+#include "swiftlet/sim/ray_caster_private.hpp"
 
 namespace swiftlet::sim {
 namespace {
@@ -53,15 +49,6 @@ void occlude(const int* is_active, RTCScene scene, RTCRay8& rays) {
   rtcOccluded8(is_active, scene, &context, &rays);
 }
 #endif
-
-struct DeviceDeleter {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct SceneDeleter {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using DevicePtr = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter>;
-using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter>;
 
 /// One ray per lane, from a common origin; lanes beyond `count` sleep.
 struct Active {
@@ -104,50 +91,35 @@ Status check_size(const Scene& scene) {
 
 }  // namespace
 
-struct RayCaster::Embree {
-  struct Moving {
-    Flight path;
-    TriangleMesh at_origin;
-    RTCGeometry geometry;  // owned by the scene
-    float* vertices;       // Embree's copy
-  };
-
-  /// Triangles of geometry 0, which never move, and of one geometry per mover.
-  Expected<unsigned> attach(const TriangleMesh& mesh, bool moves) {
-    if (!is_within_reach(mesh.vertices_m)) {
-      return fail(ErrorCode::kInvalidConfig, "ray caster",
-                  "an object has corners that are no number or more than 2000 km away",
-                  "bring it nearer: rays are cast in floats");
-    }
-    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                             3 * sizeof(float), mesh.vertices_m.size());
-    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                              3 * sizeof(std::uint32_t), mesh.triangles.size());
-    if (vertices == nullptr || triangles == nullptr) {
-      rtcReleaseGeometry(geometry);
-      return fail(ErrorCode::kOutOfMemory, "ray caster",
-                  fmt::format("no memory for {} triangles", mesh.triangles.size()));
-    }
-    std::ranges::copy(mesh.vertices_m, static_cast<Eigen::Vector3f*>(vertices));
-    std::memcpy(triangles, mesh.triangles.data(),
-                mesh.triangles.size() * 3 * sizeof(std::uint32_t));
-    rtcSetGeometryBuildQuality(geometry, moves ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH);
-    rtcCommitGeometry(geometry);
-    const unsigned id = rtcAttachGeometry(scene.get(), geometry);
-    rtcReleaseGeometry(geometry);
-    texture_of.emplace_back();
-    for (std::uint16_t material : mesh.materials)
-      texture_of.back().push_back(texture_of_material[material]);
-    return id;
+Expected<unsigned> RayCaster::Embree::attach(const TriangleMesh& mesh, bool moves) {
+  if (!is_within_reach(mesh.vertices_m)) {
+    return fail(ErrorCode::kInvalidConfig, "ray caster",
+                "an object has corners that are no number or more than 2000 km away",
+                "bring it nearer: rays are cast in floats");
   }
-
-  DevicePtr device;
-  ScenePtr scene;
-  std::vector<float> texture_of_material;
-  std::vector<std::vector<float>> texture_of;  // [geometry][triangle]
-  std::vector<Moving> movers;
-};
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                           3 * sizeof(float), mesh.vertices_m.size());
+  void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            3 * sizeof(std::uint32_t), mesh.triangles.size());
+  if (vertices == nullptr || triangles == nullptr) {
+    rtcReleaseGeometry(geometry);
+    return fail(ErrorCode::kOutOfMemory, "ray caster",
+                fmt::format("no memory for {} triangles", mesh.triangles.size()));
+  }
+  std::ranges::copy(mesh.vertices_m, static_cast<Eigen::Vector3f*>(vertices));
+  std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(std::uint32_t));
+  rtcSetGeometryBuildQuality(geometry, moves ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH);
+  rtcCommitGeometry(geometry);
+  const unsigned id = rtcAttachGeometry(scene.get(), geometry);
+  rtcReleaseGeometry(geometry);
+  corners.push_back(
+      {static_cast<const float*>(vertices), static_cast<const std::uint32_t*>(triangles)});
+  texture_of.emplace_back();
+  for (std::uint16_t material : mesh.materials)
+    texture_of.back().push_back(texture_of_material[material]);
+  return id;
+}
 
 RayCaster::RayCaster(std::unique_ptr<Embree> embree) : embree_(std::move(embree)) {}
 RayCaster::RayCaster(RayCaster&&) noexcept = default;

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -22,9 +24,12 @@ struct Hit {
   float texture = 0.0F;                                     ///< of the surface's material
 };
 
-/// The geometry of a scene, for rays (Embree). Frame: world, metres, float: errors stay below 1e-6
-/// of the scene's extent. Thread safety: rays may be cast from many threads; move_to() needs the
-/// object alone.
+/// Corners of a triangle. [m, world]
+using Triangle = std::array<Eigen::Vector3f, 3>;
+
+/// The geometry of a scene, for rays and for distances (Embree). Frame: world, metres, float:
+/// errors stay below 1e-6 of the scene's extent. Thread safety: rays may be cast from many threads;
+/// move_to() needs the object alone.
 class RayCaster {
  public:
   /// Errors: kInvalidConfig for more than kMaxTriangles and for corners beyond is_within_reach();
@@ -47,6 +52,12 @@ class RayCaster {
   /// REQUIRES: is_seen.size() == points_m.size().
   void look(const Eigen::Vector3f& eye_m, std::span<const Eigen::Vector3f> points_m,
             std::span<std::uint8_t> is_seen) const;
+
+  /// Called for a triangle; returns how far from the point to search on.
+  using LookAt = std::function<float(const Triangle&)>;
+  /// Looks at all triangles that come within `radius_m` of a point, and perhaps at others; nothing
+  /// beyond is_within_reach(). Cost: that of the triangles near by, if what `look` returns shrinks.
+  void search_near(const Eigen::Vector3f& point_m, float radius_m, const LookAt& look) const;
 
  private:
   struct Embree;

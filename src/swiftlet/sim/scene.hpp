@@ -93,6 +93,9 @@ struct TrackerOptions {
   std::optional<Jump> jump;
 };
 
+/// Takes all faults from the instruments: exact depth, exact poses, trusted from the start.
+void make_ideal(StereoOptions& camera, TrackerOptions& tracker);
+
 /// Where the depth camera sits on the tracking camera. The default is about that of Intel's printed
 /// bracket, not quite straight, as in life.
 [[nodiscard]] Transform<Body, Camera> mount_from(const Eigen::Vector3d& at_m,

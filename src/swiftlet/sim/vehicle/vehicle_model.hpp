@@ -35,7 +35,7 @@ struct VehicleOptions {
   double max_jerk_mps3 = 40.0;         ///< likewise
   double max_yaw_rate_radps = 1.6;
   double max_yaw_acceleration_radps2 = 6.0;
-  double position_gain_per_s = 2.0;          ///< metres away to metres a second
+  double position_gain_per_s = 1.5;          ///< metres away to metres a second
   double velocity_gain_per_s = 5.0;          ///< metres a second wrong to metres a second squared
   Nanoseconds command_latency{50'000'000};   ///< from command() until the vehicle obeys
   Nanoseconds command_timeout{500'000'000};  ///< without a new command it stops, as PX4 does
@@ -93,12 +93,13 @@ class VehicleModel {
   VehicleModel(const VehicleOptions& options, const VehicleState& start, std::uint64_t seed);
   void step();
   [[nodiscard]] Eigen::Vector3d wanted_velocity(const Setpoint& setpoint) const;
-  [[nodiscard]] Eigen::Vector3d wanted_thrust(const Setpoint& setpoint) const;
+  [[nodiscard]] Eigen::Vector3d wanted_thrust(const Setpoint& setpoint, double dt_s);
   void turn(const Setpoint& setpoint, double dt_s);
 
   VehicleOptions options_;
   VehicleState state_;
   Wind wind_;
+  Eigen::Vector3d against_wind_mps2_ = Eigen::Vector3d::Zero();  // what the autopilot has learnt
   std::deque<Command> commands_;  // the first is obeyed, the others are on their way
 };
 

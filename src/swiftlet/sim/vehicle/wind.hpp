@@ -28,7 +28,7 @@ class Wind {
   Wind(const WindOptions& options, std::uint64_t seed) : options_(options), random_(seed, 0x514D) {}
 
   void advance(double dt_s);
-  [[nodiscard]] Eigen::Vector3d velocity_mps() const { return options_.mean_mps + gust_mps_; }
+  [[nodiscard]] Eigen::Vector3d velocity_mps() const;
   /// Acceleration [m/s^2] of a vehicle that moves so; 0 if there is no wind, drag or not.
   [[nodiscard]] Eigen::Vector3d push_mps2(const Eigen::Vector3d& vehicle_mps) const;
 

@@ -107,6 +107,10 @@ class Rig {
   [[nodiscard]] const RigFacts& facts() const { return facts_; }
   /// Whose clock the poses are stamped with.
   [[nodiscard]] ClockDomain pose_clock() const { return poses_.clock(); }
+  /// Where the body was, as far as poses that are trusted tell.
+  [[nodiscard]] tl::expected<TrackedPose, PoseMiss> pose_at(Stamp stamp) const {
+    return poses_.track().find(stamp);
+  }
   /// As given.
   [[nodiscard]] const Options& options() const { return options_; }
 

@@ -31,18 +31,6 @@ void place_cameras(const sim::Scene& scene, std::size_t count, RigOptions& rig) 
   }
 }
 
-void make_ideal(sim::Scene& scene) {
-  scene.camera.is_ideal = true;
-  scene.tracker = {.rate_hz = scene.tracker.rate_hz,
-                   .position_noise_m = 0.0,
-                   .attitude_noise_rad = 0.0,
-                   .drift_m_per_sqrt_s = 0.0,
-                   .yaw_drift_rad_per_sqrt_s = 0.0,
-                   .medium_after_s = 0.0,
-                   .high_after_s = 0.0,
-                   .jump = std::nullopt};
-}
-
 }  // namespace
 
 Transform<World, Camera> SimFlight::true_pose(Stamp stamp, std::size_t camera) const {
@@ -66,7 +54,7 @@ Expected<SimFlight> read_sim_flight(std::string_view rest) {
   scene->seed = options->seed.value_or(scene->seed);
   scene->camera.rate_hz = options->rate_hz.value_or(scene->camera.rate_hz);
   scene->camera.barrel = options->barrel.value_or(scene->camera.barrel);
-  if (!options->has_noise) make_ideal(*scene);
+  if (!options->has_noise) sim::make_ideal(scene->camera, scene->tracker);
   if (!options->has_drift)
     scene->tracker.drift_m_per_sqrt_s = scene->tracker.yaw_drift_rad_per_sqrt_s = 0.0;
   if (!options->rig_file) place_cameras(*scene, options->cameras, options->rig);

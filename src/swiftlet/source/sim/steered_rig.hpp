@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,12 @@ struct SteeredRigOptions {
   Stamp fault_at{5'000'000'000};       ///< when, where that matters
   RigOptions rig{};                    ///< its first camera gets the scene's mount
   unsigned threads = sim::StereoCamera::kThreads;  ///< that draw an image; changes no bit of it
+};
+
+/// A pose of the body and when it was measured.
+struct BelievedPose {
+  Stamp stamp;
+  Transform<World, Body> T_world_body;
 };
 
 /// The simulated D435 and T265 on a vehicle that goes where it wants, instead of along a flight
@@ -57,14 +64,14 @@ class SteeredRig {
   /// after it, 5 ms at most.
   [[nodiscard]] std::optional<Frame> next() { return rig_.pop(); }
 
-  /// What the tracker said last that was not refused: where the vehicle believes to be, in the
-  /// world of the map. nullopt before it is sure of itself.
-  [[nodiscard]] const std::optional<PoseSample>& believed() const { return believed_; }
+  /// Where the vehicle believes to be: the newest pose that is trusted, in the world of the map;
+  /// nullopt before there is one. What a planner takes for its own place.
+  [[nodiscard]] const std::optional<BelievedPose>& believed() const { return believed_; }
 
-  /// What the tracker's drift and jumps have made of the world: a place p of the map lies in truth
-  /// at p - drift().offset_m, and a heading at yaw - drift().yaw_rad. A vehicle that is steered by
-  /// that tracker goes there.
-  [[nodiscard]] sim::TrackerDrift drift() const;
+  /// By how much that is wrong, from the tracker's drift, noise and faults: a place p of the map
+  /// lies in truth at p - drift().offset_m, and a heading at yaw - drift().yaw_rad. There the
+  /// vehicle goes that is steered by this tracker. [scene]
+  [[nodiscard]] sim::TrackerDrift drift() const { return drift_; }
 
   [[nodiscard]] const FrameTally& tally() const { return rig_.tally(); }
   [[nodiscard]] const RigFacts& facts() const { return rig_.facts(); }
@@ -72,24 +79,31 @@ class SteeredRig {
   [[nodiscard]] const PinholeIntrinsics& intrinsics() const { return camera_.intrinsics(); }
 
  private:
+  struct Move {
+    Stamp stamp;
+    Transform<World, Body> T_world_body;
+    [[nodiscard]] Transform<World, Body> to(const Move& next, Stamp stamp) const;
+  };
   SteeredRig(sim::RayCaster world, sim::StereoCamera camera, sim::TrackerModel tracker,
-             const sim::PoseFaults& faults, const SteeredRigOptions& options,
+             sim::PoseDelivery delivery, const SteeredRigOptions& options,
              const Transform<World, Body>& start);
-  [[nodiscard]] Transform<World, Body> at(Stamp stamp, Stamp now,
-                                          const Transform<World, Body>& T_world_body) const;
+  [[nodiscard]] Stamp next_image() const;
+  void take_image(const Transform<World, Body>& T_world_body);
+  void sample(const Transform<World, Body>& T_world_body);
   void deliver(Stamp until);
+  void believe(Stamp stamp);
 
   sim::RayCaster world_;
   sim::StereoCamera camera_;
   sim::TrackerModel tracker_;
   sim::PoseDelivery delivery_;
   Rig rig_;
-  Transform<Body, Camera> T_body_camera_;
   double rate_hz_;
-  Stamp last_stamp_{};
-  Transform<World, Body> last_T_world_body_;
+  Move last_;
   std::uint64_t images_ = 0;
-  std::optional<PoseSample> believed_;
+  std::deque<Move> truth_;  // at the samples of the tracker, as many as may be on their way
+  std::optional<BelievedPose> believed_;
+  sim::TrackerDrift drift_;
 };
 
 }  // namespace swiftlet

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace swiftlet::sim {
+
+using Triangle3d = std::array<Eigen::Vector3d, 3>;
+using Segment3d = std::array<Eigen::Vector3d, 2>;
+
+/// Distances [m] between what is closed and may be degenerate (a triangle that is a line or a
+/// point, a segment of length 0). 0 where the two touch or cross.
+/// Source: Ericson, Real-Time Collision Detection (2005), 5.1.
+[[nodiscard]] double distance(const Eigen::Vector3d& point, const Triangle3d& triangle);
+[[nodiscard]] double distance(const Segment3d& a, const Segment3d& b);
+[[nodiscard]] double distance(const Segment3d& segment, const Triangle3d& triangle);
+[[nodiscard]] double distance(const Triangle3d& a, const Triangle3d& b);
+
+}  // namespace swiftlet::sim
