@@ -2,8 +2,9 @@
 // Copyright the Swiftlet authors
 
 // What a planner's questions cost, in the apartment's map at 0.1 m: a swept sphere of 0.4 m along
-// 5 m, in free air and through all that stands there; the frontier after each frame of a flight,
-// and all of it at once; its clusters; what one view would tell.
+// 5 m, in free air and through all that stands there, with a distance field and without; the
+// frontier after each frame of a flight, and all of it at once; its clusters; what one view would
+// tell.
 
 #include <benchmark/benchmark.h>
 
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "swiftlet/pipeline/mapper.hpp"
+#include "swiftlet/query/distance/distance_field.hpp"
 #include "swiftlet/query/explore/frontier_clusters.hpp"
 #include "swiftlet/query/explore/view_gain.hpp"
 #include "swiftlet/query/sweep/sweep.hpp"
@@ -86,28 +88,39 @@ void sweep_apartment_with_clearance(benchmark::State& state) {
   sweep_paths(state, *mapped_flight().map, {.clearance_reach_m = 1.0});
 }
 
-/// Nothing stops it, and walls pass by at 0.1 m from its skin on both sides.
-void sweep_corridor(benchmark::State& state) {
+/// A map that is free within a distance of a line, and occupied beyond.
+MapSnapshot corridor(double half_width_m) {
   auto map = RollingMap::create({.voxel_m = 0.1, .size_m = {20, 20, 6}, .trigger_m = {1, 1, 1}});
   map->recentre({0, 0, 0}, nullptr);
   for_each_block(map->window(), [&](const BlockIndex& b) {
     VoxelBlock& block = map->writable(b);
     for (int i = 0; i < kBlockVoxels; ++i) {
       const Eigen::Vector3d p = centre_of(voxel_at(b, i), 0.1);
-      const bool is_wall = std::abs(p.y() - 0.5 * p.x()) > 0.6;
+      const bool is_wall = std::abs(p.y() - 0.5 * p.x()) > half_width_m;
       block.cells[static_cast<std::size_t>(i)] = is_wall ? 230 : 20;
     }
   });
-  const auto snapshot = map->snapshot({1});
+  return *map->snapshot({1});
+}
+void sweep_clear(benchmark::State& state, double half_width_m, bool has_field) {
+  const MapSnapshot map = corridor(half_width_m);
+  auto field = DistanceField::create(0.1, map.window().size, {});
+  field->update(map);
   const auto body = BodyShape::sphere(0.4);
   const double along_m = 2.5 / std::hypot(1.0, 0.5);
   const std::array<Eigen::Vector3d, 2> path{Eigen::Vector3d(-along_m, -0.5 * along_m, 0),
                                             Eigen::Vector3d(along_m, 0.5 * along_m, 0)};
+  const SweepPolicy policy{.field = has_field ? &*field : nullptr};
   for (auto _ : state) {
-    const auto answer = sweep(*snapshot, *body, *SweepPath::along(path));
+    const auto answer = sweep(map, *body, *SweepPath::along(path), policy);
     if (answer->state != SweepState::kClear) return state.SkipWithError("not clear");
   }
 }
+/// Nothing stops it, and walls pass by at 0.1 m from its skin on both sides, or at half a metre.
+void sweep_corridor(benchmark::State& state) { sweep_clear(state, 0.6, false); }
+void sweep_corridor_with_field(benchmark::State& state) { sweep_clear(state, 0.6, true); }
+void sweep_wide_corridor(benchmark::State& state) { sweep_clear(state, 1.1, false); }
+void sweep_wide_corridor_with_field(benchmark::State& state) { sweep_clear(state, 1.1, true); }
 
 /// The frontier after each frame; the mapper works outside the timing.
 void frontier_in_flight(benchmark::State& state) {
@@ -148,6 +161,9 @@ void view_gain(benchmark::State& state) {
 BENCHMARK(sweep_apartment)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sweep_apartment_with_clearance)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sweep_corridor)->Unit(benchmark::kMicrosecond);
+BENCHMARK(sweep_corridor_with_field)->Unit(benchmark::kMicrosecond);
+BENCHMARK(sweep_wide_corridor)->Unit(benchmark::kMicrosecond);
+BENCHMARK(sweep_wide_corridor_with_field)->Unit(benchmark::kMicrosecond);
 BENCHMARK(frontier_in_flight)->Unit(benchmark::kMicrosecond)->Iterations(500);
 BENCHMARK(frontier_from_scratch)->Unit(benchmark::kMicrosecond);
 BENCHMARK(frontier_clusters)->Unit(benchmark::kMicrosecond);

@@ -40,6 +40,29 @@ Status check_sweep(const MapSnapshot& map, const BodyShape& body, const SweepPol
   return Done{};
 }
 
+/// A field that is not of this map would prove what is not so.
+Status check_field(const MapSnapshot& map, const SweepPolicy& policy) {
+  if (policy.field == nullptr) return Done{};
+  const DistanceField& field = *policy.field;
+  const bool is_occupied = obstacles_of(policy) == Obstacles::kOccupied;
+  const bool is_of_map = field.frame_count() == map.frame_count() &&
+                         field.voxel_m() == map.voxel_m() &&
+                         field.options().thresholds == policy.thresholds;
+  if (!is_of_map) {
+    return fail(ErrorCode::kUsage, "sweep",
+                "the field is of another frame, cell or thresholds than the map",
+                "update() it with the same snapshot, or sweep without it");
+  }
+  // Nothing is known of what lies beyond its box; unknown space stops there all the same.
+  const bool knows_all = field.box() == map.window();
+  const bool answers =
+      is_occupied ? field.options().occupied && knows_all : field.options().not_free;
+  if (answers) return Done{};
+  return fail(ErrorCode::kUsage, "sweep",
+              "the field does not know the obstacles that stop the body",
+              "make it with `occupied` and a box as large as the window, or with `not_free`");
+}
+
 /// Calls visit(leg, number, length so far [m]) along a path; a single pose is a leg without length.
 template <class Visit>
 double for_each_leg(const SweepPath& path, double cells_per_m, Visit&& visit) {
@@ -71,6 +94,7 @@ Expected<SweepAnswer> sweep(const MapSnapshot& map, const BodyShape& body, const
                             const SweepPolicy& policy) {
   if (auto usable = check_sweep(map, body, policy); !usable)
     return forward_error(std::move(usable));
+  if (auto usable = check_field(map, policy); !usable) return forward_error(std::move(usable));
   const SweepScene scene(map, body, policy);
   SweepAnswer answer;
   ContactSearch contacts(scene);

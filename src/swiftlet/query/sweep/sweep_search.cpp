@@ -64,6 +64,11 @@ Clip SweepScene::near_window(const PathLeg& leg, double extra) const {
   return clip_to_box({leg.from(), leg.at(1.0)}, box);
 }
 
+ContactSearch::ContactSearch(const SweepScene& scene) : scene_(scene), wanted_(scene.stopping()) {
+  if (scene.policy.field == nullptr) return;
+  by_field_.emplace(*scene.policy.field, obstacles_of(scene.policy), scene.reach + scene.margin);
+}
+
 std::optional<ContactSearch::Touch> ContactSearch::touch_of(const MovingPart& part) const {
   const Eigen::Array3d extent = part.half_extent();
   const TouchedCells cells =
@@ -121,6 +126,14 @@ void ContactSearch::search(const PathLeg& leg, double begin, double end) {
   search(leg, middle, end);
 }
 
+bool ContactSearch::search_pieces(const PathLeg& leg, double begin, double end) {
+  return for_each_piece(leg, begin, end, longest_piece(scene_.reach + scene_.margin), scene_.lever,
+                        kGrowth_cells, [&](double from, double to) {
+                          search(leg, from, to);
+                          return wanted_.is_any();
+                        });
+}
+
 bool ContactSearch::follow(const PathLeg& leg, std::size_t number, double length_so_far_m) {
   number_ = number;
   length_so_far_m_ = length_so_far_m;
@@ -132,11 +145,10 @@ bool ContactSearch::follow(const PathLeg& leg, std::size_t number, double length
           Occupancy::kUnknown});
   }
   if (clip.is_empty()) return wanted_.is_any();
-  return for_each_piece(leg, clip.begin, clip.end, longest_piece(scene_.reach + scene_.margin),
-                        scene_.lever, kGrowth_cells, [&](double begin, double end) {
-                          search(leg, begin, end);
-                          return wanted_.is_any();
-                        });
+  if (!by_field_) return search_pieces(leg, clip.begin, clip.end);
+  return by_field_->for_each_unsure(leg, clip.begin, clip.end, [&](double begin, double end) {
+    return search_pieces(leg, begin, end);
+  });
 }
 
 void ClearanceSearch::look_at_rim(const MovingPart& part, double path_m) {

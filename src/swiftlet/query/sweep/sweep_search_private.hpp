@@ -6,10 +6,16 @@
 #include <optional>
 
 #include "swiftlet/query/sweep/cell_scan_private.hpp"
+#include "swiftlet/query/sweep/clear_by_field_private.hpp"
 #include "swiftlet/query/sweep/path_piece_private.hpp"
 #include "swiftlet/query/sweep/sweep.hpp"
 
 namespace swiftlet {
+
+/// What stops a body, as a distance field has it.
+[[nodiscard]] inline Obstacles obstacles_of(const SweepPolicy& policy) {
+  return policy.unknown == UnknownSpace::kStops ? Obstacles::kNotFree : Obstacles::kOccupied;
+}
 
 /// What both searches of a sweep, for contacts and for clearance, know. [cells]
 struct SweepScene {
@@ -42,7 +48,7 @@ struct SweepScene {
 /// Finds the first contact of each kind along a path, leg by leg.
 class ContactSearch {
  public:
-  explicit ContactSearch(const SweepScene& scene) : scene_(scene), wanted_(scene.stopping()) {}
+  explicit ContactSearch(const SweepScene& scene);
 
   /// What comes next on the path; false once there is nothing left to look for.
   bool follow(const PathLeg& leg, std::size_t number, double length_so_far_m);
@@ -58,10 +64,12 @@ class ContactSearch {
   [[nodiscard]] std::optional<Touch> touch(const PathLeg& leg, double begin, double end) const;
   [[nodiscard]] std::optional<Touch> touch_of(const MovingPart& part) const;
   void search(const PathLeg& leg, double begin, double end);
+  bool search_pieces(const PathLeg& leg, double begin, double end);
   void keep(const PathLeg& leg, double share, const Touch& touch);
 
   const SweepScene& scene_;
   WantedCells wanted_;  // what has not been met yet
+  std::optional<ClearByField> by_field_;
   std::size_t number_ = 0;
   double length_so_far_m_ = 0.0;
   std::optional<SweepContact> unknown_;
