@@ -75,7 +75,7 @@ TEST_F(Program, lists_every_kind_of_thing_for_people_and_for_machines) {
   const Ended text = swiftlet({"list"});
   EXPECT_EQ(text.exit_code, 0);
   const json all = json::parse(swiftlet({"list", "--json"}).out);
-  for (const char* kind : {"sources", "scenes", "steps", "models", "rays", "integrators",
+  for (const char* kind : {"sources", "scenes", "random", "steps", "models", "rays", "integrators",
                            "exporters", "views", "parameters"}) {
     EXPECT_THAT(text.out, HasSubstr(kind));
     ASSERT_FALSE(all.at(kind).empty()) << kind;

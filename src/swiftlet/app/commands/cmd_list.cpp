@@ -19,6 +19,7 @@
 #include "swiftlet/integrate/rays/ray_method.hpp"
 #include "swiftlet/render/map_view.hpp"
 #include "swiftlet/sim/built_in_scenes.hpp"
+#include "swiftlet/sim/random/scene_kinds.hpp"
 #include "swiftlet/source/sources.hpp"
 #include "swiftlet/store/export/exporters.hpp"
 
@@ -90,6 +91,8 @@ struct Kind {
 const std::array kKinds{
     Kind{"sources", "swiftlet map NAME:...", [] { return listed(sources()); }},
     Kind{"scenes", "swiftlet map sim:NAME", listed_scenes},
+    Kind{"random", "swiftlet map sim:random:NAME?seed=7",
+         [] { return listed(sim::scene_kinds()); }},
     Kind{"steps", "parameter depth.steps", [] { return listed(depth_steps()); }},
     Kind{"rays", "swiftlet map --rays", listed_rays},
     Kind{"models", "parameter integrate.model", listed_models},

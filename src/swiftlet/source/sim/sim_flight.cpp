@@ -31,6 +31,30 @@ void place_cameras(const sim::Scene& scene, std::size_t count, RigOptions& rig) 
   }
 }
 
+struct SceneAndTask {
+  sim::Scene scene;
+  std::optional<sim::SceneTask> task;
+};
+
+/// The scene of a place: `random:KIND`, or what load_scene() finds.
+Expected<SceneAndTask> open_scene(const std::string& place, const SimOptions& options) {
+  constexpr std::string_view kRandom = "random:";
+  if (place.starts_with(kRandom)) {
+    auto drawn = sim::generate(std::string_view(place).substr(kRandom.size()),
+                               options.seed.value_or(1), options.random);
+    if (!drawn) return forward_error(std::move(drawn));
+    return SceneAndTask{std::move(drawn->scene), std::move(drawn->task)};
+  }
+  if (!options.only_random.empty()) {
+    return fail(ErrorCode::kUsage, "sim",
+                fmt::format("only random scenes have the option '{}'", options.only_random),
+                "leave it out, or fly sim:random:KIND");
+  }
+  auto scene = sim::load_scene(place);
+  if (!scene) return forward_error(std::move(scene));
+  return SceneAndTask{std::move(*scene), std::nullopt};
+}
+
 }  // namespace
 
 Transform<World, Camera> SimFlight::true_pose(Stamp stamp, std::size_t camera) const {
@@ -44,8 +68,9 @@ Expected<SimFlight> read_sim_flight(std::string_view rest) {
   if (!address) return forward_error(std::move(address));
   auto options = parse_sim_options(*address);
   if (!options) return forward_error(std::move(options));
-  auto scene = sim::load_scene(address->place);
-  if (!scene) return forward_error(std::move(scene));
+  auto opened = open_scene(address->place, *options);
+  if (!opened) return forward_error(std::move(opened));
+  sim::Scene* const scene = &opened->scene;
   const Nanoseconds left = scene->flight.duration() - options->start;
   if (left < Nanoseconds(0)) {
     return fail(ErrorCode::kUsage, "sim", "start lies behind the end of the flight",
@@ -58,7 +83,7 @@ Expected<SimFlight> read_sim_flight(std::string_view rest) {
   if (!options->has_drift)
     scene->tracker.drift_m_per_sqrt_s = scene->tracker.yaw_drift_rad_per_sqrt_s = 0.0;
   if (!options->rig_file) place_cameras(*scene, options->cameras, options->rig);
-  SimFlight flight{std::move(*scene), std::move(*options), {}};
+  SimFlight flight{std::move(opened->scene), std::move(*options), std::move(opened->task), {}};
   for (const RigCamera& camera : flight.options.rig.cameras)
     flight.T_flown_camera.push_back(flight.scene.T_body_camera.inverse() * camera.T_body_camera);
   return flight;

@@ -3,11 +3,13 @@
 
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/frame/frame.hpp"
+#include "swiftlet/sim/random/generated_scene.hpp"
 #include "swiftlet/sim/scene.hpp"
 #include "swiftlet/source/sim/sim_options.hpp"
 
@@ -17,6 +19,8 @@ namespace swiftlet {
 struct SimFlight {
   sim::Scene scene;
   SimOptions options;
+  /// What is to be done there; random scenes alone have it.
+  std::optional<sim::SceneTask> task;
   /// By camera of the rig: the one of the scene is what flies.
   std::vector<Transform<Camera, Camera>> T_flown_camera;
 

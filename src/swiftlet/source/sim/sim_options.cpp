@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::string_view kOwnOptions =
     "seed=N, noise=on|off, drift=on|off, start=SECONDS, frames=N, rate=HZ, barrel=SHARE, "
-    "cameras=1..8, shuffle=N, fault=NAME, fault_at=SECONDS";
+    "cameras=1..8, shuffle=N, fault=NAME, fault_at=SECONDS; of random scenes: size=METRES, "
+    "density=0..3, thinnest=METRES";
 
 /// "on" or "off"; false if it is neither.
 bool apply_switch(std::string_view value, bool& out) {
@@ -28,6 +29,23 @@ bool apply_time(std::string_view value, Stamp& out) {
   const auto time = parse_stamp(value);
   if (time) out = *time;
   return time && time->ns >= 0;
+}
+
+/// Applies an option of random scenes; nullopt if it is none, false if it cannot be meant.
+std::optional<bool> apply_random(std::string_view key, std::string_view value,
+                                 SimOptions& options) {
+  const auto number = number_from<double>(value);
+  if (key == "size") {
+    options.random.size_m = number;
+  } else if (key == "density") {
+    options.random.density = number.value_or(1.0);
+  } else if (key == "thinnest") {
+    options.random.thinnest_m = number.value_or(0.01);
+  } else {
+    return std::nullopt;
+  }
+  options.only_random = key;
+  return number.has_value();
 }
 
 /// Applies one "key=value"; false if it cannot be meant.
@@ -57,6 +75,7 @@ bool apply(std::string_view key, std::string_view value, SimOptions& options) {
     options.start = Nanoseconds(start.ns);
     return is_meant;
   }
+  if (const auto is_meant = apply_random(key, value, options)) return *is_meant;
   return apply_rig_option(key, value, options.rig);
 }
 

@@ -9,6 +9,7 @@
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/base/time.hpp"
+#include "swiftlet/sim/random/generated_scene.hpp"
 #include "swiftlet/source/address_options.hpp"
 #include "swiftlet/source/rig/rig_file.hpp"
 
@@ -16,7 +17,9 @@ namespace swiftlet {
 
 /// What the address of a simulated rig asks for (see open_sim_source()).
 struct SimOptions {
-  std::optional<std::uint64_t> seed;
+  std::optional<std::uint64_t> seed;  // of the noise, and of a random scene
+  sim::RandomSceneOptions random;     // of a random scene
+  std::string only_random{};          // an option that was given and only those have
   bool has_noise = true;
   bool has_drift = true;  // of the tracker
   Nanoseconds start{0};

@@ -9,9 +9,9 @@
 
 namespace swiftlet {
 
-/// The simulated rig: `sim:SCENE` or `sim:SCENE?option=value&...`, where SCENE is a built-in scene
-/// or the path of a .yaml file. Options:
-///   seed=N         other noise, same flight (default: the scene's)
+/// The simulated rig: `sim:SCENE` or `sim:SCENE?option=value&...`, where SCENE is a built-in scene,
+/// the path of a .yaml file, or `random:KIND` for one that is drawn (sim/random). Options:
+///   seed=N         other noise, same flight (default: the scene's); another random scene
 ///   noise=on|off   off: ideal instruments, trusted from the start (default: on)
 ///   start=SECONDS  switches the rig on that far into the flight (default: 0)
 ///   frames=N       at most N depth images (default: to the end of the flight)
@@ -21,6 +21,8 @@ namespace swiftlet {
 ///   shuffle=N      images of one period arrive in an order drawn from this seed
 ///   fault=NAME     something goes wrong with the poses, see sim/pose_faults.cpp
 ///   fault_at=SECONDS  when, where that matters (default: 5)
+/// those of random scenes, see sim::RandomSceneOptions:
+///   size=METRES, density=0..3, thinnest=METRES
 /// and those of every rig: rig=FILE, pairing, on_jump, pose_offset_ms.
 ///
 /// Depth images and T265 samples come in time order and meet in a Rig, as those of a real rig
