@@ -27,6 +27,7 @@ swiftlet_backend(NAME realsense PACKAGE realsense2)  # live cameras (docs/realse
 if(SWIFTLET_BUILD_PROGRAM)
   list(APPEND CMAKE_MODULE_PATH ${PROJECT_SOURCE_DIR}/cmake)
   swiftlet_backend(NAME view PACKAGE SwiftletView)  # the ground station: its server and its page
+  swiftlet_backend(NAME mavlink PACKAGE Boost VERSION 1.74)  # links to an autopilot (docs/autopilot.md)
   find_package(CLI11 REQUIRED)
   find_package(nlohmann_json REQUIRED)
 endif()
