@@ -16,11 +16,14 @@
 #include "swiftlet/app/input_files.hpp"
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/progress.hpp"
+#include "swiftlet/app/report/summary.hpp"
+#include "swiftlet/app/view/autopilot_watch.hpp"
 #include "swiftlet/app/view/flight_watch.hpp"
 #include "swiftlet/session/flight.hpp"
 #include "swiftlet/session/flight_file.hpp"
 #include "swiftlet/session/flight_recovery.hpp"
 #include "swiftlet/session/mapping_session.hpp"
+#include "swiftlet/session/observers.hpp"
 #include "swiftlet/source/rig/real_time_source.hpp"
 #include "swiftlet/source/sources.hpp"
 
@@ -42,6 +45,14 @@ struct MapOptions {
   bool is_viewed = false;
   bool stays = false;  ///< the view, after the flight
   StationFlags station;
+  MavlinkFlags mavlink;
+};
+
+/// Who is told of the flight while it goes on; null where nobody is.
+struct Onlookers {
+  std::unique_ptr<FlightWatch> page;
+  std::unique_ptr<AutopilotWatch> autopilot;
+  Observers all{};
 };
 
 /// Told before the flight and not after it.
@@ -88,11 +99,19 @@ FlightOptions flight_options(const MapOptions& options, Progress& progress,
 }
 
 Status fly_and_tell(FrameSource& source, MappingSession& session, const MapOptions& options,
-                    const InterruptGuard& interrupt, FlightWatch* watch) {
+                    const InterruptGuard& interrupt, Onlookers& onlookers) {
   Progress progress(options.frames > 0 ? options.frames : source.info().frame_count);
   FlightOptions flight = flight_options(options, progress, interrupt);
-  if (watch != nullptr)
-    flight.look = [&] { watch->note(source.tally(), session.summary().blocks_lost); };
+  flight.look = [&] {
+    if (onlookers.page) onlookers.page->note(source.tally(), session.summary().blocks_lost);
+    if (!onlookers.autopilot) return;
+    for (const std::string& note : onlookers.autopilot->take_notes())
+      progress.tell("autopilot: " + note);
+  };
+  flight.tell_events = [&](const std::vector<RigEvent>& events) {
+    tell_events(events, progress);
+    if (onlookers.autopilot) onlookers.autopilot->tell_pilot(events);
+  };
   Status outcome = fly(source, session, flight);
   progress.finish();
   return outcome;
@@ -115,12 +134,24 @@ Faults land(MappingSession& session, const MapperConfig& config, Status&& flight
   return faults;
 }
 
-/// Null if nobody wants to look on.
-Expected<std::unique_ptr<FlightWatch>> start_watch(const MapOptions& options, const MapMeta& meta) {
-  if (!options.is_viewed) return nullptr;
-  auto watch = FlightWatch::start(options.station, options.source, meta);
-  if (watch) tell_address((*watch)->station());
-  return watch;
+Expected<std::unique_ptr<Onlookers>> start_onlookers(const MapOptions& options, const MapMeta& meta,
+                                                     const MapperConfig& config,
+                                                     const FrameSource& source) {
+  auto onlookers = std::make_unique<Onlookers>();
+  if (options.is_viewed) {
+    auto page = FlightWatch::start(options.station, options.source, meta);
+    if (!page) return forward_error(std::move(page));
+    tell_address((*page)->station());
+    onlookers->page = std::move(*page);
+  }
+  if (options.mavlink.is_wanted()) {
+    auto autopilot = AutopilotWatch::start(options.mavlink, config, source);
+    if (!autopilot) return forward_error(std::move(autopilot));
+    onlookers->autopilot = std::move(*autopilot);
+  }
+  onlookers->all.add(onlookers->page.get());
+  onlookers->all.add(onlookers->autopilot.get());
+  return onlookers;
 }
 
 Faults map(const MapOptions& options) {
@@ -136,20 +167,21 @@ Faults map(const MapOptions& options) {
   adopt_baseline(info.baseline_m, *config);
 
   SessionOptions how = session_options(options, info, config->mapper);
-  auto watch = start_watch(options, how.meta);
-  if (!watch) return fault_of(std::move(watch));
-  how.observer = watch->get();
+  auto onlookers = start_onlookers(options, how.meta, config->mapper, **source);
+  if (!onlookers) return fault_of(std::move(onlookers));
+  how.observer = &(*onlookers)->all;
   auto session = MappingSession::create(config->mapper, how);
   if (!session) return fault_of(std::move(session));
   (*session)->summary().source = info.uri;
   (*session)->summary().intrinsics = info.intrinsics;
   const InterruptGuard interrupt;  // until the map is saved
-  Status flight = fly_and_tell(**source, **session, options, interrupt, watch->get());
+  Status flight = fly_and_tell(**source, **session, options, interrupt, **onlookers);
+  if ((*onlookers)->autopilot) (*onlookers)->autopilot->finish();
   source->reset();  // nobody listens to the rig any more, however long the page stays
-  if (*watch) (*watch)->finish();
+  if ((*onlookers)->page) (*onlookers)->page->finish();
   const bool is_over = flight.has_value() && !(*session)->summary().was_interrupted;
   Faults faults = land(**session, config->mapper, std::move(flight), options.as_json);
-  if (*watch && options.stays && is_over && faults.empty()) {
+  if ((*onlookers)->page && options.stays && is_over && faults.empty()) {
     std::fflush(stdout);
     wait_for(interrupt);
   }
@@ -190,6 +222,7 @@ Action declare_map(CLI::App& parser) {
       ->group("Ground station");
   declare_station_flags(parser, o->station);
   declare_rig_flags(parser, o->rig);
+  declare_mavlink_flags(parser, o->mavlink);
   parser.add_option("--store", o->store, "what leaves the window: keep it in the file or drop it")
       ->check(CLI::IsMember({"keep", "drop"}))
       ->capture_default_str();
@@ -206,6 +239,7 @@ Action declare_map(CLI::App& parser) {
       "  swiftlet map sim:apartment --config flight.yaml --overwrite\n"
       "  swiftlet map bag:d435.bag,t265.bag --rig my_rig.yaml\n"
       "  swiftlet map sim:apartment --view --stay --realtime     then open the address it tells\n"
+      "  swiftlet map realsense: --rig my_rig.yaml --mavlink serial:/dev/ttyACM0\n"
       "'swiftlet list sources' tells every KIND, 'swiftlet list parameters' every KEY.\n"
       "Ctrl-C stops the flight and saves what was mapped (exit code 0); a second one gives up.\n"
       "A flight that was cut off leaves its map; the next start of the same command keeps it as\n"
