@@ -23,6 +23,7 @@
 
 namespace swiftlet {
 
+class LiveSink;
 struct RigOptions;
 
 /// Why a source could not turn a depth image into a Frame.
@@ -96,6 +97,9 @@ class FrameSource {
   [[nodiscard]] virtual const RigFacts* facts() const { return nullptr; }
   /// The cameras and mounts that it joins; null if it is no rig.
   [[nodiscard]] virtual const RigOptions* rig() const { return nullptr; }
+
+  /// Where poses come to that others than the source receive; null: it has its own.
+  [[nodiscard]] virtual LiveSink* pose_sink() { return nullptr; }
 
   /// A source asks this while it has no frame to hand out: a live one ten times a second, others
   /// while they skip what has no pose. tally() may be read then. After a true next() ends.

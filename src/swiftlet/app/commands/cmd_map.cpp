@@ -136,7 +136,7 @@ Faults land(MappingSession& session, const MapperConfig& config, Status&& flight
 
 Expected<std::unique_ptr<Onlookers>> start_onlookers(const MapOptions& options, const MapMeta& meta,
                                                      const MapperConfig& config,
-                                                     const FrameSource& source) {
+                                                     FrameSource& source) {
   auto onlookers = std::make_unique<Onlookers>();
   if (options.is_viewed) {
     auto page = FlightWatch::start(options.station, options.source, meta);
@@ -148,6 +148,11 @@ Expected<std::unique_ptr<Onlookers>> start_onlookers(const MapOptions& options, 
     auto autopilot = AutopilotWatch::start(options.mavlink, config, source);
     if (!autopilot) return forward_error(std::move(autopilot));
     onlookers->autopilot = std::move(*autopilot);
+  }
+  if (source.pose_sink() != nullptr && !onlookers->autopilot) {
+    return fail(ErrorCode::kUsage, options.source,
+                "its poses are the autopilot's, and there is none",
+                "add --mavlink LINK (docs/autopilot.md)");
   }
   onlookers->all.add(onlookers->page.get());
   onlookers->all.add(onlookers->autopilot.get());

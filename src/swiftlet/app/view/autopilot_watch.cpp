@@ -7,6 +7,7 @@
 
 #include "swiftlet/app/events.hpp"
 #include "swiftlet/mavlink/companion/mapped_frame.hpp"
+#include "swiftlet/source/live/live_sink.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -18,6 +19,17 @@ std::vector<Transform<Body, Camera>> mounts_of(const RigOptions* rig) {
   return mounts;
 }
 
+/// From the autopilot's thread to the rig.
+class PoseRelay final : public mavlink::PoseTaker {
+ public:
+  explicit PoseRelay(LiveSink& sink) : sink_(sink) {}
+  void take(const PoseSample& pose) override { sink_.push(pose); }
+  void start_anew() override { sink_.start_poses_anew(); }
+
+ private:
+  LiveSink& sink_;
+};
+
 bool concerns_the_pilot(RigEventKind kind) {
   return kind == RigEventKind::kUnplugged || kind == RigEventKind::kStalled ||
          kind == RigEventKind::kNotStarted || kind == RigEventKind::kRestarted;
@@ -25,15 +37,26 @@ bool concerns_the_pilot(RigEventKind kind) {
 
 }  // namespace
 
+AutopilotWatch::AutopilotWatch(FrameSource& source) : mounts_(mounts_of(source.rig())) {
+  if (LiveSink* const sink = source.pose_sink()) relay_ = std::make_unique<PoseRelay>(*sink);
+}
+
 Expected<std::unique_ptr<AutopilotWatch>> AutopilotWatch::start(const MavlinkFlags& flags,
                                                                 const MapperConfig& config,
-                                                                const FrameSource& source) {
+                                                                FrameSource& source) {
   auto options = autopilot_options(flags, config, source.rig());
   if (!options) return forward_error(std::move(options));
+  std::unique_ptr<AutopilotWatch> watch(new AutopilotWatch(source));
+  if (watch->relay_ && options->companion.poses != mavlink::PoseTelling::kNone) {
+    return fail(ErrorCode::kUsage, "--mavlink-poses",
+                "the poses are the autopilot's own, which must not come back to it",
+                "leave the option out");
+  }
+  options->companion.pose_taker = watch->relay_.get();
   auto autopilot = mavlink::Autopilot::start(std::move(*options));
   if (!autopilot) return forward_error(std::move(autopilot));
-  return std::unique_ptr<AutopilotWatch>(
-      new AutopilotWatch(std::move(*autopilot), mounts_of(source.rig())));
+  watch->autopilot_ = std::move(*autopilot);
+  return watch;
 }
 
 void AutopilotWatch::map_begun(const Mapper& mapper) {

@@ -12,14 +12,15 @@
 
 namespace swiftlet::app {
 
-/// Tells an autopilot of a flight while it goes on. The mapping thread hands over a pose a frame
-/// and never waits.
+/// Tells an autopilot of a flight while it goes on, and gives its poses to a source that wants
+/// them. The mapping thread hands over a pose a frame and never waits.
 class AutopilotWatch final : public SessionObserver {
  public:
-  /// `source` must outlive it. Errors: those of autopilot_options() and Autopilot::start().
+  /// `source` must outlive it. Errors: those of autopilot_options() and Autopilot::start(); kUsage
+  /// if poses would go round in a circle.
   [[nodiscard]] static Expected<std::unique_ptr<AutopilotWatch>> start(const MavlinkFlags& flags,
                                                                        const MapperConfig& config,
-                                                                       const FrameSource& source);
+                                                                       FrameSource& source);
 
   void map_begun(const Mapper& mapper) override;
   void frame_done(const Frame& frame, const MapUpdate& update, const Mapper& mapper) override;
@@ -34,12 +35,11 @@ class AutopilotWatch final : public SessionObserver {
   void finish() { autopilot_.reset(); }
 
  private:
-  AutopilotWatch(std::unique_ptr<mavlink::Autopilot> autopilot,
-                 std::vector<Transform<Body, Camera>> mounts)
-      : autopilot_(std::move(autopilot)), mounts_(std::move(mounts)) {}
+  explicit AutopilotWatch(FrameSource& source);
 
-  std::unique_ptr<mavlink::Autopilot> autopilot_;
   std::vector<Transform<Body, Camera>> mounts_;  // by camera
+  std::unique_ptr<mavlink::PoseTaker> relay_;    // null: nobody wants its poses
+  std::unique_ptr<mavlink::Autopilot> autopilot_;
 };
 
 }  // namespace swiftlet::app

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "swiftlet/mavlink/companion/pose_message.hpp"
+#include "swiftlet/mavlink/wire/command_messages.hpp"
 #include "swiftlet/mavlink/wire/system_messages.hpp"
 
 namespace swiftlet::mavlink {
@@ -14,6 +15,8 @@ namespace {
 
 constexpr Nanoseconds kHeartbeatPeriod = std::chrono::seconds(1);
 constexpr Nanoseconds kClockPeriod = std::chrono::seconds(1);
+constexpr Nanoseconds kAskingPeriod = std::chrono::seconds(2);
+constexpr float kPosePeriod_us = 20'000;
 /// A motion between two frames that lie further apart, or hardly apart, says nothing.
 constexpr Nanoseconds kLongestStep = std::chrono::milliseconds(300);
 constexpr Nanoseconds kShortestStep = std::chrono::milliseconds(2);
@@ -44,7 +47,7 @@ std::uint8_t state_of(MapHealth health) {
 }  // namespace
 
 Companion::Companion(const CompanionOptions& options, FlightNews& news)
-    : options_(options), news_(news), watch_(options.system) {
+    : options_(options), news_(news), watch_(options.system), vehicle_poses_(options.pose_taker) {
   constexpr std::uint8_t kUsualSystem = 1;
   const Address self{options.system == 0 ? kUsualSystem : options.system, options.component};
   for (std::size_t link = 0; link < options.links; ++link) {
@@ -72,7 +75,9 @@ void Companion::received(std::size_t link, const Packet& packet, HostTime now, F
     for (PacketWriter& writer : writers_) writer.speak_as({system, options_.component});
   }
   answer_clock(link, packet, now, out);
+  vehicle_poses_.hear(packet, {now, unix_time(), watch_.vehicle()->clock_offset});
   report_.vehicle = watch_.vehicle();
+  report_.poses_heard = vehicle_poses_.given();
 }
 
 void Companion::answer_clock(std::size_t link, const Packet& packet, HostTime now,
@@ -98,6 +103,22 @@ void Companion::tick(HostTime now, FrameOutlet& out) {
   if (heartbeat_.is_due(now, kHeartbeatPeriod)) tell_heartbeat(out);
   if (watch_.vehicle() && clock_.is_due(now, kClockPeriod))
     tell_one(watch_.vehicle()->link, Timesync{.ts1 = stamp_of(now).ns}, out);
+  ask_for_poses(now, out);
+}
+
+void Companion::ask_for_poses(HostTime now, FrameOutlet& out) {
+  if (options_.pose_taker == nullptr || !watch_.vehicle() || vehicle_poses_.is_fed(now)) return;
+  if (!asking_.is_due(now, kAskingPeriod)) return;
+  const auto& vehicle = *watch_.vehicle();
+  for (const std::uint32_t id : {Odometry::kId, AttitudeQuaternion::kId, LocalPositionNed::kId}) {
+    tell_one(vehicle.link,
+             CommandLong{.param1 = static_cast<float>(id),
+                         .param2 = kPosePeriod_us,
+                         .command = codes::kSetMessageInterval,
+                         .target_system = vehicle.address.system,
+                         .target_component = vehicle.address.component},
+             out);
+  }
 }
 
 void Companion::take_news(FrameOutlet& out) {

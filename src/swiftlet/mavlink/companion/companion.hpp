@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "swiftlet/mavlink/companion/flight_news.hpp"
+#include "swiftlet/mavlink/companion/vehicle_poses.hpp"
 #include "swiftlet/mavlink/companion/vehicle_watch.hpp"
 #include "swiftlet/mavlink/links/link_thread.hpp"
 #include "swiftlet/mavlink/ring/obstacle_ring.hpp"
@@ -29,6 +30,9 @@ struct CompanionOptions {
   RingOptions ring{};
   double least_known_m = 2.0;  ///< as RingTelling
   PoseTelling poses = PoseTelling::kNone;
+  /// Takes the vehicle's own poses, which it is then asked for; null: nobody wants them. It
+  /// outlives the companion.
+  PoseTaker* pose_taker = nullptr;
   Nanoseconds obstacle_period = std::chrono::milliseconds(66);  ///< 15 Hz
   /// When the newest frame in the map is this old, the map is no longer told: the autopilot must
   /// not fly by what may have changed.
@@ -48,8 +52,9 @@ struct CompanionReport {
   std::array<std::uint16_t, kSectors> told_cm{};  ///< as in OBSTACLE_DISTANCE
   std::uint16_t max_cm = 0;
   std::uint64_t rings_told = 0, poses_told = 0;
-  Nanoseconds ring_age{};   ///< from the exposure of its newest frame to the message
-  Nanoseconds ring_cost{};  ///< to look around
+  Nanoseconds ring_age{};         ///< from the exposure of its newest frame to the message
+  Nanoseconds ring_cost{};        ///< to look around
+  std::uint64_t poses_heard = 0;  ///< given to the pose taker
   std::optional<VehicleState> vehicle{};
 };
 
@@ -82,6 +87,7 @@ class Companion {
   void tell_ring(HostTime now, FrameOutlet& out);
   void tell_heartbeat(FrameOutlet& out);
   void tell_pilot(Urgency urgency, std::string_view text, FrameOutlet& out);
+  void ask_for_poses(HostTime now, FrameOutlet& out);
   void answer_clock(std::size_t link, const Packet& packet, HostTime now, FrameOutlet& out);
 
   /// When something that is repeated is due.
@@ -98,11 +104,12 @@ class Companion {
   FlightNews& news_;
   std::vector<PacketWriter> writers_;  // one a link
   VehicleWatch watch_;
+  VehiclePoses vehicle_poses_;
   std::optional<MapReader> map_;
   std::optional<MappedFrame> frame_;
   bool is_frame_of_map_ = false;  // false while frame_ is older than map_
   std::uint8_t resets_ = 0;
-  Timer heartbeat_, ring_, clock_;
+  Timer heartbeat_, ring_, clock_, asking_;
   CompanionReport report_;
 };
 

@@ -179,6 +179,7 @@ bool bind_path(int socket, const std::filesystem::path& path) {
 }  // namespace
 
 std::string PoseAddress::title() const {
+  if (is_autopilot) return "poses of the autopilot";
   if (port == 0) return "poses on socket " + socket.string();
   if (is_loopback(host)) return fmt::format("poses on UDP port {}", port);
   return fmt::format("poses on UDP {}:{}", host, port);
@@ -187,6 +188,10 @@ std::string PoseAddress::title() const {
 std::optional<PoseAddress> parse_pose_address(std::string_view text) {
   constexpr std::string_view kUdp = "udp:", kUnix = "unix:";
   PoseAddress address;
+  if (text == "mavlink") {
+    address.is_autopilot = true;
+    return address;
+  }
   if (text.starts_with(kUnix)) {
     address.socket = text.substr(kUnix.size());
     return address.socket.empty() ? std::nullopt : std::optional(address);
@@ -207,6 +212,7 @@ std::optional<PoseAddress> parse_pose_address(std::string_view text) {
 
 Expected<LiveStreamPtr> listen_for_poses(const PoseAddress& address, BodyAxes axes,
                                          LiveSink& sink) {
+  if (address.is_autopilot) return std::make_unique<LiveStream>();
   std::optional<PoseGuard> guard;
   if (!address.key_file.empty()) {
     auto key = load_pose_key(address.key_file);

@@ -20,11 +20,14 @@ struct PoseAddress {
   std::uint16_t port = 0;            ///< 0: the socket of the next line
   std::filesystem::path socket{};    ///< for programs of the same user on this computer
   std::filesystem::path key_file{};  ///< of the shared key; empty: anyone is believed
+  /// Of the autopilot that the program speaks with: nothing is listened to here, whoever speaks
+  /// with it pushes into FrameSource::pose_sink().
+  bool is_autopilot = false;
 
   /// "poses on UDP port 5605"
   [[nodiscard]] std::string title() const;
 };
-/// Reads "udp:PORT", "udp:ADDRESS:PORT" or "unix:PATH"; nullopt for anything else.
+/// Reads "udp:PORT", "udp:ADDRESS:PORT", "unix:PATH" or "mavlink"; nullopt for anything else.
 [[nodiscard]] std::optional<PoseAddress> parse_pose_address(std::string_view text);
 
 /// Receives poses as text: a datagram holds one or more pose lines (see parse_pose_line()), and

@@ -24,7 +24,8 @@ namespace swiftlet {
 namespace {
 
 constexpr std::string_view kOwnOptions =
-    "profile=WIDTHxHEIGHT@FPS, laser_mw, preset, poses=udp:PORT|udp:ADDRESS:PORT|unix:PATH, "
+    "profile=WIDTHxHEIGHT@FPS, laser_mw, preset, "
+    "poses=udp:PORT|udp:ADDRESS:PORT|unix:PATH|mavlink, "
     "pose_key=FILE, pose_axes=rep103|t265|optical, wait_s";
 
 /// "848x480@30"
@@ -89,6 +90,7 @@ class RealsenseSource final : public FrameSource {
     auto started = RealsenseRig::start(std::move(devices), request, rig_);
     if (!started) return forward_error(std::move(started));
     devices_ = std::move(*started);
+    takes_poses_ = request.poses && request.poses->is_autopilot;
     return Done{};
   }
 
@@ -99,9 +101,11 @@ class RealsenseSource final : public FrameSource {
   const RigOptions* rig() const override { return rig_.rig(); }
   void stop_when(const std::function<bool()>& is_unwanted) override { rig_.stop_when(is_unwanted); }
   std::vector<RigEvent> take_events() override { return rig_.take_events(); }
+  LiveSink* pose_sink() override { return takes_poses_ ? &rig_ : nullptr; }
 
  private:
   LiveRig rig_;
+  bool takes_poses_ = false;
   std::unique_ptr<RealsenseRig> devices_;  // last: it delivers into the rig
 };
 
