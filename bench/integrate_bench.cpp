@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/measurement_models.hpp"
+#include "swiftlet/preprocess/preprocessor.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace {
@@ -24,7 +24,7 @@ constexpr double kRange_m = 10.0;
 /// Every tenth frame from the start of the flight, conditioned; made once.
 struct Flight {
   std::vector<Frame> frames;
-  std::vector<ConditionedDepth> depths;
+  std::vector<PreprocessedDepth> depths;
 };
 
 const Flight& flight() {
@@ -32,13 +32,13 @@ const Flight& flight() {
     constexpr int kFrames = 60, kEvery = 10;
     Flight made;
     auto source = open_source("sim:apartment");
-    auto conditioner = Conditioner::create({.max_range_m = kRange_m, .downsample = 1});
-    if (!source || !conditioner) return made;
+    auto preprocessor = Preprocessor::create({.max_range_m = kRange_m, .downsample = 1});
+    if (!source || !preprocessor) return made;
     for (int i = 0; i < kFrames * kEvery; ++i) {
       auto frame = (*source)->next();
       if (!frame || !*frame) break;
       if (i % kEvery != 0) continue;
-      made.depths.push_back(conditioner->clean((*frame)->depth, (*frame)->intrinsics, {}));
+      made.depths.push_back(preprocessor->clean((*frame)->depth, (*frame)->intrinsics, {}));
       made.frames.push_back(std::move(**frame));
     }
     return made;
@@ -61,7 +61,7 @@ void integrate(benchmark::State& state, const char* name, std::string_view model
   std::size_t i = 0;
   for (auto _ : state) {
     const Frame& frame = f.frames[i % f.frames.size()];
-    const ConditionedDepth& depth = f.depths[i % f.frames.size()];
+    const PreprocessedDepth& depth = f.depths[i % f.frames.size()];
     map->recentre(frame.T_world_camera.translation(), nullptr);
     const StereoSensor sensor(frame.intrinsics, {}, voxel_m, 1);
     pyramid.build(depth.raw);

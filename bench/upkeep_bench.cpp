@@ -9,8 +9,8 @@
 
 #include <vector>
 
-#include "swiftlet/condition/depth_step.hpp"
 #include "swiftlet/pipeline/mapper.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace {
@@ -42,12 +42,12 @@ void gate(benchmark::State& state) {
 
 void distortion(benchmark::State& state) {
   if (frames().empty()) return state.SkipWithError("the simulated rig was not built");
-  ConditionOptions options;
+  PreprocessOptions options;
   options.distortion = {0.05, 0.05, 0.01, 0.01, 0.01};
   const auto step = find_registered(depth_steps(), "distortion", "step")->make(options);
-  ConditionedDepth depth;
+  PreprocessedDepth depth;
   depth.raw = frames().front().depth.raw;
-  depth.lens = frames().front().intrinsics;
+  depth.intrinsics = frames().front().intrinsics;
   for (auto _ : state) step->apply(depth);
 }
 
@@ -58,7 +58,7 @@ void occupancy_decay(benchmark::State& state) {
   auto mapper = Mapper::create(config);
   for (const Frame& frame : frames()) mapper->integrate(frame);
   const Frame& frame = frames().back();
-  ConditionedDepth depth;
+  PreprocessedDepth depth;
   depth.raw = frame.depth.raw;
   DepthRangePyramid pyramid;
   pyramid.build(depth.raw);

@@ -73,7 +73,7 @@ struct Illness {
   void (*infect)(DoctorExam& exam);
 };
 
-void all_clocks(StreamFacts& stream, ClockDomain clock) {
+void all_clocks(StreamStatistics& stream, ClockDomain clock) {
   stream.clocks.fill(0);
   stream.clocks[static_cast<std::size_t>(clock)] = stream.samples;
 }

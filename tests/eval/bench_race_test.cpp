@@ -94,7 +94,7 @@ TEST(BenchWorkload, needs_a_frame_with_a_reading_in_range) {
 // ---- in which order
 
 /// Writes down its name and the number of each frame; takes 1 ms for frame 0, 2 ms for frame 1, ...
-class Diarist final : public eval::Contender {
+class Diarist final : public eval::BenchmarkSubject {
  public:
   Diarist(std::string name, std::vector<std::string>& diary)
       : name_(std::move(name)), diary_(diary) {}
@@ -117,14 +117,14 @@ TEST(BenchRace, all_fuse_a_frame_before_the_next_and_warm_up_is_not_booked) {
   auto workload = eval::read_workload(source, {3, 2, {}});
   ASSERT_TRUE(workload);
   std::vector<std::string> diary;
-  std::vector<eval::Runner> runners;
-  runners.push_back({.name = "a", .contender = std::make_unique<Diarist>("a", diary)});
-  runners.push_back({.name = "b", .every = 2, .contender = std::make_unique<Diarist>("b", diary)});
-  eval::race(*workload, runners);
+  std::vector<eval::TimedSubject> timed;
+  timed.push_back({.name = "a", .subject = std::make_unique<Diarist>("a", diary)});
+  timed.push_back({.name = "b", .every = 2, .subject = std::make_unique<Diarist>("b", diary)});
+  eval::race(*workload, timed);
   EXPECT_THAT(diary, ElementsAre("a0", "b0", "a1", "a2", "b2", "a3", "a4", "b4"));
-  EXPECT_EQ(runners[0].latency.frame_count(), 3U);
-  EXPECT_EQ(runners[1].latency.frame_count(), 2U);
-  EXPECT_EQ(runners[0].latency.frame_percentile(0.5), std::chrono::milliseconds(4));
+  EXPECT_EQ(timed[0].latency.frame_count(), 3U);
+  EXPECT_EQ(timed[1].latency.frame_count(), 2U);
+  EXPECT_EQ(timed[0].latency.frame_percentile(0.5), std::chrono::milliseconds(4));
 }
 
 TEST(BenchRace, a_slow_contender_sees_five_measured_frames_if_there_are_as_many) {

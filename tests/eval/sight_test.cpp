@@ -24,11 +24,11 @@ sim::Scene wall_and_rod() {
 class Sight : public ::testing::Test {
  protected:
   const sim::RayCaster world_ = sim::RayCaster::create(wall_and_rod()).value();
-  const PinholeIntrinsics lens_ =
+  const PinholeIntrinsics intrinsics_ =
       PinholeIntrinsics::from_field_of_view(848, 480, radians(91.2)).value();
   const Transform<World, Camera> T_world_camera_ =
       Transform<World, Body>{} * forward_looking_camera();
-  const TrueView view_{lens_, T_world_camera_};
+  const TrueView view_{intrinsics_, T_world_camera_};
 };
 
 TEST_F(Sight, lines_end_on_what_is_seen_first) {
@@ -79,12 +79,12 @@ TEST(TruePose, is_where_an_ideal_tracker_says_it_is) {
 TEST(Movers, are_seen_where_they_are_and_looked_through_where_they_were) {
   const sim::Scene scene = sim::load_scene("walker").value();
   auto world = sim::RayCaster::create(scene).value();
-  const auto lens = PinholeIntrinsics::from_field_of_view(848, 480, radians(91.2)).value();
+  const auto intrinsics = PinholeIntrinsics::from_field_of_view(848, 480, radians(91.2)).value();
   const VoxelBox box{{20, -20, 0}, {40, 45, 18}};
   const auto sights_at = [&](Nanoseconds t) {
     world.move_to(t);
     std::vector<SightLine> lines;
-    lines_of_sight(world, {lens, scene.flight.camera_at(t)}, {}, lines);
+    lines_of_sight(world, {intrinsics, scene.flight.camera_at(t)}, {}, lines);
     MoverSights sights(box, MoverSight::kNothing);
     see_movers(movers_at(scene, t), lines, 0.1, sights);
     return sights;

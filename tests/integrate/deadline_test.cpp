@@ -8,9 +8,9 @@
 #include <map>
 
 #include "support/synthetic.hpp"
-#include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/measurement_models.hpp"
+#include "swiftlet/preprocess/preprocessor.hpp"
 
 namespace swiftlet {
 namespace {
@@ -22,8 +22,8 @@ class LimitedFrame {
  public:
   explicit LimitedFrame(test::Random& random)
       : frame_(test::random_frame(random, test::small_camera(320, 240))),
-        conditioner_(*Conditioner::create({.downsample = 1})),
-        depth_(conditioner_.clean(frame_.depth, frame_.intrinsics, 0.004)) {
+        preprocessor_(*Preprocessor::create({.downsample = 1})),
+        depth_(preprocessor_.clean(frame_.depth, frame_.intrinsics, 0.004)) {
     pyramid_.build(depth_.raw);
   }
 
@@ -42,8 +42,8 @@ class LimitedFrame {
 
  private:
   Frame frame_;
-  Conditioner conditioner_;
-  const ConditionedDepth& depth_;
+  Preprocessor preprocessor_;
+  const PreprocessedDepth& depth_;
   DepthRangePyramid pyramid_;
 };
 

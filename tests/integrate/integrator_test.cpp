@@ -10,9 +10,9 @@
 
 #include "support/reference_mapper.hpp"
 #include "support/synthetic.hpp"
-#include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/integrate/evidence_sums.hpp"
 #include "swiftlet/integrate/measurement_models.hpp"
+#include "swiftlet/preprocess/preprocessor.hpp"
 
 namespace swiftlet {
 namespace {
@@ -48,10 +48,10 @@ ReferenceMapper reference_for(const Frame& frame, int ratio) {
 IntegrationTally integrate(RollingMap& map, const Frame& frame, int ratio,
                            const IntegrateOptions& options = {.integrator = "rays"},
                            std::uint64_t frame_number = 0) {
-  ConditionOptions condition;
+  PreprocessOptions condition;
   condition.downsample = ratio;
-  auto conditioner = Conditioner::create(condition);
-  const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, {});
+  auto preprocessor = Preprocessor::create(condition);
+  const PreprocessedDepth& depth = preprocessor->clean(frame.depth, frame.intrinsics, {});
   DepthRangePyramid pyramid;
   pyramid.build(depth.raw);
   const StereoSensor sensor(frame.intrinsics, SensorOptions{}, kVoxel_m, depth.ratio);

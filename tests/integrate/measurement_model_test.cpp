@@ -10,8 +10,8 @@
 #include "support/agreement.hpp"
 #include "support/every_instruction_set.hpp"
 #include "support/synthetic.hpp"
-#include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/integrate/measurement_models.hpp"
+#include "swiftlet/preprocess/preprocessor.hpp"
 
 namespace swiftlet {
 namespace {
@@ -32,12 +32,12 @@ std::vector<VoxelBlock> model_blocks(MeasurementModel& model, std::uint64_t seed
       RollingMap::create({.voxel_m = 0.1, .size_m = {8, 8, 8}, .trigger_m = {1e3, 1e3, 1e3}});
   map->recentre(Eigen::Vector3d::Zero(), nullptr);
   const auto integrator = *make_integrator({.integrator = "projective", .threads = threads});
-  auto conditioner =
-      Conditioner::create({.steps = {"range_gate", "smooth", "near_downsample"}, .downsample = 1});
+  auto preprocessor =
+      Preprocessor::create({.steps = {"range_gate", "smooth", "near_downsample"}, .downsample = 1});
   DepthRangePyramid pyramid;
   for (std::uint64_t i = 0; i < 4; ++i) {
     const Frame frame = test::random_frame(random, test::small_camera(163, 121));
-    const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, 0.004);
+    const PreprocessedDepth& depth = preprocessor->clean(frame.depth, frame.intrinsics, 0.004);
     const StereoSensor sensor(frame.intrinsics, {}, map->voxel_m(), 1);
     pyramid.build(depth.raw);
     integrator->integrate({depth, pyramid, frame.intrinsics, frame.T_world_camera, i}, sensor,
@@ -105,8 +105,8 @@ TEST_P(EveryMeasurementModel, clears_the_air_fills_the_wall_and_leaves_what_is_b
     auto map = RollingMap::create({.voxel_m = kEdge_m, .size_m = {8, 8, 8}});
     map->recentre(Eigen::Vector3d::Zero(), nullptr);
     const auto fuses = *make_integrator({.integrator = std::string(integrator.name)});
-    auto conditioner = Conditioner::create({.downsample = 1});
-    const ConditionedDepth& depth = conditioner->clean(frame.depth, frame.intrinsics, 0.004);
+    auto preprocessor = Preprocessor::create({.downsample = 1});
+    const PreprocessedDepth& depth = preprocessor->clean(frame.depth, frame.intrinsics, 0.004);
     DepthRangePyramid pyramid;
     pyramid.build(depth.raw);
     const StereoSensor sensor(frame.intrinsics, {}, kEdge_m, 1);

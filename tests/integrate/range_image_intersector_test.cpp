@@ -12,9 +12,9 @@
 
 #include "support/every_instruction_set.hpp"
 #include "support/synthetic.hpp"
-#include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/measurement_models.hpp"
+#include "swiftlet/preprocess/preprocessor.hpp"
 
 namespace swiftlet {
 namespace {
@@ -49,8 +49,8 @@ Frame scattered_frame(Random& random, int kind) {
 struct TracedFrame {
   TracedFrame(Random& random, int kind, std::string_view model_name)
       : frame(scattered_frame(random, kind)),
-        conditioner(*Conditioner::create({.downsample = 1})),
-        depth(conditioner.clean(frame.depth, frame.intrinsics, 0.004)),
+        preprocessor(*Preprocessor::create({.downsample = 1})),
+        depth(preprocessor.clean(frame.depth, frame.intrinsics, 0.004)),
         sensor(frame.intrinsics, {}, kLawVoxel_m, 1),
         map(*RollingMap::create({.voxel_m = kLawVoxel_m, .size_m = {8, 8, 8}})),
         model(find_measurement_model(model_name)->make()) {
@@ -69,8 +69,8 @@ struct TracedFrame {
   }
 
   Frame frame;
-  Conditioner conditioner;
-  const ConditionedDepth& depth;
+  Preprocessor preprocessor;
+  const PreprocessedDepth& depth;
   DepthRangePyramid pyramid;
   StereoSensor sensor;
   RollingMap map;
@@ -145,7 +145,7 @@ TEST_P(ConservativeIntersector, is_sure_where_there_is_no_doubt) {
   Random random;
   TracedFrame traced(random, 0, GetParam());
   traced.frame = test::wall_frame(test::small_camera(160, 120), 3.0);
-  static_cast<void>(traced.conditioner.clean(traced.frame.depth, traced.frame.intrinsics, 0.004));
+  static_cast<void>(traced.preprocessor.clean(traced.frame.depth, traced.frame.intrinsics, 0.004));
   traced.pyramid.build(traced.depth.raw);
   const DepthView view = traced.view();
   const CubeView cubes(view, kLawVoxel_m);

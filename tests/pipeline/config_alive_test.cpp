@@ -111,7 +111,7 @@ TEST(MapperConfig, threads_change_no_output_and_a_deadline_does) {
 TEST(MapperConfig, sharp_fusion_smooths_behind_the_range_gate) {
   MapperConfig config;
   config.integrate.model = "precision_weighted";
-  EXPECT_EQ(config.conditioning().steps,
+  EXPECT_EQ(config.preprocessing().steps,
             (std::vector<std::string>{"distortion", "range_gate", "smooth", "near_downsample"}));
   config.integrate.model = "blunt";
   ASSERT_EQ(config.faults().size(), 1U);

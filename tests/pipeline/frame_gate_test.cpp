@@ -17,10 +17,10 @@ namespace {
 using test::Random;
 
 Frame frame_of(DepthImage depth, double x_m = 0.0, std::uint8_t camera = 0) {
-  const auto lens = test::small_camera(depth.raw.width(), depth.raw.height());
+  const auto intrinsics = test::small_camera(depth.raw.width(), depth.raw.height());
   const auto T = Transform<World, Body>::trusted(Eigen::Quaterniond::Identity(), {x_m, 0, 0}) *
                  forward_looking_camera();
-  Frame frame{Stamp{}, std::move(depth), lens, T};
+  Frame frame{Stamp{}, std::move(depth), intrinsics, T};
   frame.camera = camera;
   return frame;
 }

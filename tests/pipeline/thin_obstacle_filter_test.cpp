@@ -74,7 +74,7 @@ TEST(ThinObstacleFilter, find_nothing_thin_in_a_wall_nor_at_the_edge_of_somethin
   }
   auto map = RollingMap::create({}).value();
   map.recentre(Eigen::Vector3d::Zero(), nullptr);
-  ConditionedDepth depth;
+  PreprocessedDepth depth;
   depth.raw = frame.depth.raw;
   DepthRangePyramid pyramid;
   pyramid.build(depth.raw);
@@ -95,7 +95,7 @@ TEST(ThinObstacleFilter, never_make_more_of_the_map_than_it_holds) {
     Frame frame = test::wall_frame(camera, 1.0);
     for (std::uint16_t& d : frame.depth.raw.pixels())
       d = static_cast<std::uint16_t>(random.integer(0, 9000));
-    ConditionedDepth depth;
+    PreprocessedDepth depth;
     depth.raw = frame.depth.raw;
     pyramid.build(depth.raw);
     hits.collect({depth, pyramid, frame.intrinsics, frame.T_world_camera, 0}, map);

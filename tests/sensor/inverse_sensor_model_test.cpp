@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "support/seeds.hpp"
-#include "swiftlet/condition/depth_step.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 
 namespace swiftlet {
@@ -77,7 +77,7 @@ TEST(InverseSensorModel, never_claims_certainty) {
 // maximum range". Clearly: at least a tenth of what a passing ray takes away.
 TEST(InverseSensorModel, lets_no_wall_dissolve_within_the_default_range) {
   const StereoSensor sensor = d435();
-  for (double z = 0.2; z <= ConditionOptions{}.max_range_m; z += 0.1) {
+  for (double z = 0.2; z <= PreprocessOptions{}.max_range_m; z += 0.1) {
     EXPECT_GT(sensor.model().expected_at_surface(sensor.noise().sigma_m(z)),
               -0.1 * sensor.model().free_log_odds())
         << "at " << z << " m";

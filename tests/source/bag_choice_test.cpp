@@ -181,11 +181,11 @@ TEST_F(BagChoice, applies_binning_and_region_of_a_camera_info) {
     const auto reading = read_all(address());
     EXPECT_EQ(reading.error, "");
     ASSERT_EQ(reading.frames.size(), 11U);
-    const PinholeIntrinsics& lens = reading.frames[0].intrinsics;
-    EXPECT_EQ(lens.fx(), each.f);
-    EXPECT_EQ(lens.cx(), each.cx);
-    EXPECT_EQ(lens.cy(), each.cy);
-    EXPECT_EQ(lens.width(), 24);
+    const PinholeIntrinsics& intrinsics = reading.frames[0].intrinsics;
+    EXPECT_EQ(intrinsics.fx(), each.f);
+    EXPECT_EQ(intrinsics.cx(), each.cx);
+    EXPECT_EQ(intrinsics.cy(), each.cy);
+    EXPECT_EQ(intrinsics.width(), 24);
   }
   bag_ = test::BagWriter();
   mount();
@@ -218,8 +218,8 @@ TEST_F(BagChoice, gives_each_image_the_intrinsics_of_its_own_time) {
     auto source = open_source(place);
     while ((*source)->next().value()) {
     }
-    EXPECT_EQ((*source)->facts()->cameras[0].intrinsics_changes, 1U);
-    EXPECT_EQ((*source)->facts()->cameras[0].intrinsics_changed, ms(500));
+    EXPECT_EQ((*source)->statistics()->cameras[0].intrinsics_changes, 1U);
+    EXPECT_EQ((*source)->statistics()->cameras[0].intrinsics_changed, ms(500));
   }
 }
 

@@ -37,7 +37,7 @@ class SoftwareDevices final : public RealsenseDevices {
   void plug(const SoftwareCamera& camera, const std::string& serial,
             const std::string& usb = "3.2") {
     const std::lock_guard lock(mutex_);
-    RealsenseFacts facts = facts_of(camera.device());
+    DeviceInfo facts = facts_of(camera.device());
     facts.serial = serial;
     facts.usb = usb;
     plugged_.push_back({camera.device(), std::move(facts)});
@@ -71,7 +71,7 @@ class LiveFlight : public ::testing::Test {
                     kHeight, sender_.port(), (folder_ / "rig.yaml").string()));
     EXPECT_TRUE(parsed) << parsed.error().text();
     if (!parsed) return {};
-    parsed->keeper = {.glance = milliseconds(5),
+    parsed->keeper = {.poll_period = milliseconds(5),
                       .first_sample = std::chrono::seconds(5),
                       .stalled_after = milliseconds(400)};
     return *parsed;

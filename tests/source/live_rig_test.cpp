@@ -104,7 +104,7 @@ TEST(LiveRigDeathTest, refuses_a_camera_that_its_rig_does_not_have) {
 }
 
 TEST(LiveRig, gives_up_when_the_camera_is_silent_for_too_long) {
-  LiveRig rig(kInfo, {.rig = {}, .queue = {}, .patience = milliseconds(20)});
+  LiveRig rig(kInfo, {.rig = {}, .queue = {}, .timeout = milliseconds(20)});
   const auto frame = rig.next();
   ASSERT_FALSE(frame);
   EXPECT_THAT(frame.error().text(), HasSubstr("no image has come"));

@@ -157,26 +157,26 @@ class Seeing final : public FrameSource {
   Seeing() { facts_.cameras.resize(1); }
   Expected<std::optional<Frame>> next() override {
     if (facts_.cameras[0].samples == 5) return std::nullopt;
-    const auto lens = PinholeIntrinsics::create(4, 4, 4, 4, 2, 2).value();
+    const auto intrinsics = PinholeIntrinsics::create(4, 4, 4, 4, 2, 2).value();
     const Stamp stamp{static_cast<std::int64_t>(facts_.cameras[0].samples) * 1'000'000};
-    facts_.cameras[0].note(DepthFrame{stamp, DepthImage{}, lens});
-    return Frame{stamp, DepthImage{}, lens, {}};
+    facts_.cameras[0].note(DepthFrame{stamp, DepthImage{}, intrinsics});
+    return Frame{stamp, DepthImage{}, intrinsics, {}};
   }
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return tally_; }
-  const RigFacts* facts() const override { return &facts_; }
+  const RigStatistics* statistics() const override { return &facts_; }
   const RigOptions* rig() const override { return &rig_; }
 
  private:
   SourceInfo info_{"seeing:", "+z", std::nullopt, std::nullopt};
   FrameTally tally_;
-  RigFacts facts_;
+  RigStatistics facts_;
   RigOptions rig_;
 };
 
 TEST(RealTime, passes_on_the_facts_and_the_rig_of_its_source) {
   const auto source = play_in_real_time(std::make_unique<Seeing>(), {.capacity = 5});
-  const RigFacts* const facts = source->facts();
+  const RigStatistics* const facts = source->statistics();
   ASSERT_NE(facts, nullptr);
   ASSERT_NE(source->rig(), nullptr);
   EXPECT_EQ(source->rig()->cameras.size(), 1U);
@@ -184,10 +184,10 @@ TEST(RealTime, passes_on_the_facts_and_the_rig_of_its_source) {
     const auto frame = source->next();
     has_more = frame && *frame;
   }
-  EXPECT_EQ(source->facts(), facts) << "they stay where they are";
+  EXPECT_EQ(source->statistics(), facts) << "they stay where they are";
   EXPECT_EQ(facts->cameras.at(0).samples, 5U);
   const auto other = play_in_real_time(std::make_unique<Recorded>(2, false));
-  EXPECT_EQ(other->facts(), nullptr) << "it is no rig";
+  EXPECT_EQ(other->statistics(), nullptr) << "it is no rig";
 }
 
 TEST(RealTime, can_be_left_before_its_end) {

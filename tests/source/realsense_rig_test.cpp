@@ -30,9 +30,9 @@ TEST_F(LiveFlight, joins_depth_of_the_sdk_with_poses_from_anywhere) {
   EXPECT_NEAR(source->info().baseline_m.value_or(0.0), 0.05, 1e-9);
   take_off();
   EXPECT_TRUE(fly(*source, 10));
-  ASSERT_NE(source->facts(), nullptr);
-  EXPECT_GE(source->facts()->cameras.front().samples, 10U);
-  EXPECT_NEAR(source->facts()->poses.rate_hz(), 200.0, 1.0);
+  ASSERT_NE(source->statistics(), nullptr);
+  EXPECT_GE(source->statistics()->cameras.front().samples, 10U);
+  EXPECT_NEAR(source->statistics()->poses.rate_hz(), 200.0, 1.0);
   land();
 }
 

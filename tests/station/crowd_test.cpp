@@ -23,10 +23,10 @@ using ::testing::StartsWith;
 
 class Crowd : public ServedFlight {
  protected:
-  void start(const std::string& token, std::chrono::milliseconds patience = 3s) {
+  void start(const std::string& token, std::chrono::milliseconds timeout = 3s) {
     StationOptions options;
     options.access.token = token;
-    options.patience = patience;
+    options.timeout = patience;
     options.tell = [this](const std::string& line) {
       const std::lock_guard lock(mutex_);
       told_ += line + "\n";

@@ -19,7 +19,7 @@ inline MapInfo small_info() {
   info.trigger_m = {1.0, 1.0, 0.5};
   info.min_range_m = 0.2;
   info.max_range_m = 5.0;
-  info.stages = {"condition", "recentre", "integrate", "publish"};
+  info.stages = {"preprocess", "recentre", "integrate", "publish"};
   info.verdicts = {"integrated", "no_readings"};
   info.losses = {"no_pose", "pose_gap"};
   return info;

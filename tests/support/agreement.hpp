@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/measurement_models.hpp"
 #include "swiftlet/integrate/rays/ray_method.hpp"
+#include "swiftlet/preprocess/preprocessor.hpp"
 
 namespace swiftlet::test {
 
@@ -70,14 +70,14 @@ class AgreementCheck {
         reference_(*make_integrator({.integrator = "rays"})),
         candidate_model_(find_measurement_model(model)->make()),
         reference_model_(find_measurement_model(model)->make()),
-        conditioner_(*Conditioner::create({.max_range_m = max_range_m, .downsample = 1})),
+        preprocessor_(*Preprocessor::create({.max_range_m = max_range_m, .downsample = 1})),
         options_{.baseline_m = baseline_m, .model = {}},
         trace_(find_ray_method("voxel_traversal")->trace),
         box_(voxel_box(reference_map_.window())),
         observations_(reference_map_.window().block_count() * kBlockVoxels) {}
 
   void add(const Frame& frame) {
-    const ConditionedDepth& depth = conditioner_.clean(frame.depth, frame.intrinsics, 0.004);
+    const PreprocessedDepth& depth = preprocessor_.clean(frame.depth, frame.intrinsics, 0.004);
     const StereoSensor sensor(frame.intrinsics, options_, candidate_map_.voxel_m(), 1);
     pyramid_.build(depth.raw);
     const DepthView view{depth, pyramid_, frame.intrinsics, frame.T_world_camera, frames_++};
@@ -146,7 +146,7 @@ class AgreementCheck {
   RollingMap candidate_map_, reference_map_;
   std::unique_ptr<Integrator> candidate_, reference_;
   MeasurementModelPtr candidate_model_, reference_model_;
-  Conditioner conditioner_;
+  Preprocessor preprocessor_;
   DepthRangePyramid pyramid_;
   SensorOptions options_;
   TraceRay trace_;

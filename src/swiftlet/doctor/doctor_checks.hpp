@@ -34,7 +34,7 @@ struct Finding {
 };
 
 /// The pixels of a camera's frames.
-struct ReadingFacts {
+struct DepthStatistics {
   std::size_t pixels = 0;
   std::size_t readings = 0;        ///< that hold a depth
   std::vector<float> medians_m{};  ///< of each frame
@@ -47,10 +47,10 @@ struct DoctorExam {
   std::optional<Error> no_system{};         ///< why they could not be asked
   std::optional<Error> fault{};             ///< why the source could not be opened, or read on
   std::vector<std::string> choices{};       ///< SourceInfo::choices
-  std::optional<RigFacts> facts{};
+  std::optional<RigStatistics> facts{};
   RigOptions rig{};
   FrameTally tally{};
-  std::vector<ReadingFacts> readings{};        ///< by camera of the rig
+  std::vector<DepthStatistics> readings{};     ///< by camera of the rig
   bool is_t265 = false;                        ///< the poses are a T265's
   std::optional<IntrinsicsNote> intrinsics{};  ///< where those of the cameras came from
   std::string depth_doubt{};                   ///< why the unit of depth looks wrong

@@ -14,7 +14,7 @@
 namespace swiftlet::doctor {
 namespace {
 
-std::string title(const RealsenseFacts& device) {
+std::string title(const DeviceInfo& device) {
   return fmt::format("{} ({})", device.name.empty() ? "a device" : device.name, device.serial);
 }
 
@@ -54,18 +54,18 @@ void check_sdk(const DoctorExam& exam, std::vector<Finding>& findings) {
 void check_devices(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.system) return;
   const auto& devices = exam.system->devices;
-  for (const RealsenseFacts& device : devices) {
+  for (const DeviceInfo& device : devices) {
     findings.push_back(
         {Severity::kGood,
          fmt::format("{}: firmware {}, USB {}{}{}", title(device), device.firmware,
                      device.usb.empty() ? "unknown" : device.usb,
                      device.has_depth() ? ", depth" : "", device.has_poses ? ", poses" : "")});
   }
-  if (std::ranges::none_of(devices, &RealsenseFacts::has_depth)) {
+  if (std::ranges::none_of(devices, &DeviceInfo::has_depth)) {
     findings.push_back({Severity::kFault, "no depth camera is connected",
                         "check the cable, the power of the port, and the udev rules of the SDK"});
   }
-  if (std::ranges::none_of(devices, &RealsenseFacts::has_poses)) {
+  if (std::ranges::none_of(devices, &DeviceInfo::has_poses)) {
     findings.push_back({Severity::kWarning, "no T265 is connected",
                         "give it a port of its own, or feed poses with ?poses=udp:PORT"});
   }
@@ -73,7 +73,7 @@ void check_devices(const DoctorExam& exam, std::vector<Finding>& findings) {
 
 void check_firmware(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.system) return;
-  for (const RealsenseFacts& device : exam.system->devices) {
+  for (const DeviceInfo& device : exam.system->devices) {
     if (device.firmware.empty() || device.recommended_firmware.empty()) continue;
     if (version_of(device.firmware) >= version_of(device.recommended_firmware)) continue;
     findings.push_back({Severity::kWarning,
@@ -85,7 +85,7 @@ void check_firmware(const DoctorExam& exam, std::vector<Finding>& findings) {
 
 void check_usb(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.system) return;
-  for (const RealsenseFacts& device : exam.system->devices) {
+  for (const DeviceInfo& device : exam.system->devices) {
     if (!device.has_depth() || !device.usb.starts_with('2')) continue;
     findings.push_back(
         {Severity::kFault,
@@ -97,7 +97,7 @@ void check_usb(const DoctorExam& exam, std::vector<Finding>& findings) {
 void check_profile(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.system) return;
   constexpr std::string_view kDefault = "848x480@30";
-  for (const RealsenseFacts& device : exam.system->devices) {
+  for (const DeviceInfo& device : exam.system->devices) {
     const auto& profiles = device.depth_profiles;
     if (!device.has_depth() || std::ranges::find(profiles, kDefault) != profiles.end()) continue;
     findings.push_back({Severity::kWarning,

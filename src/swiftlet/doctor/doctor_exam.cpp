@@ -14,7 +14,7 @@
 namespace swiftlet::doctor {
 namespace {
 
-void note_readings(const Frame& frame, ReadingFacts& facts) {
+void note_readings(const Frame& frame, DepthStatistics& facts) {
   std::vector<std::uint16_t> raw;
   for (int v = 0; v < frame.depth.raw.height(); ++v) {
     const auto row = frame.depth.raw.row(v);
@@ -54,7 +54,7 @@ void examine_source(FrameSource& source, Nanoseconds duration, const std::functi
     shown.update(++done);
     if (is_timed && (*frame)->stamp - *first >= duration) break;
   }
-  if (source.facts() != nullptr) exam.facts = *source.facts();
+  if (source.statistics() != nullptr) exam.facts = *source.statistics();
   exam.tally = source.tally();
   exam.depth_doubt = doubt.text();
 }
@@ -67,8 +67,8 @@ void examine_system(DoctorExam& exam) {
 
 /// Whether there is a whole rig to be run.
 bool has_rig(const RealsenseSystem& system) {
-  return std::ranges::any_of(system.devices, &RealsenseFacts::has_depth) &&
-         std::ranges::any_of(system.devices, &RealsenseFacts::has_poses);
+  return std::ranges::any_of(system.devices, &DeviceInfo::has_depth) &&
+         std::ranges::any_of(system.devices, &DeviceInfo::has_poses);
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ void check_depth_units(const DoctorExam& exam, std::vector<Finding>& findings) {
   }
   if (!exam.facts) return;
   for (std::size_t i = 0; i < exam.facts->cameras.size(); ++i) {
-    const CameraFacts& camera = exam.facts->cameras[i];
+    const CameraStatistics& camera = exam.facts->cameras[i];
     if (camera.samples == 0) continue;
     std::vector<float> medians = exam.readings[i].medians_m;
     std::ranges::sort(medians);
@@ -175,7 +175,7 @@ void check_depth_units(const DoctorExam& exam, std::vector<Finding>& findings) {
 
 void check_readings(const DoctorExam& exam, std::vector<Finding>& findings) {
   for (std::size_t i = 0; i < exam.readings.size(); ++i) {
-    const ReadingFacts& readings = exam.readings[i];
+    const DepthStatistics& readings = exam.readings[i];
     if (readings.pixels == 0) continue;
     const double share = percent(readings.readings, readings.pixels);
     findings.push_back(

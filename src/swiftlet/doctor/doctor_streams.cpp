@@ -15,14 +15,14 @@ namespace swiftlet::doctor {
 namespace {
 
 /// The clock of most samples.
-ClockDomain clock_of(const StreamFacts& stream) {
+ClockDomain clock_of(const StreamStatistics& stream) {
   const auto most = std::ranges::max_element(stream.clocks);
   return static_cast<ClockDomain>(most - stream.clocks.begin());
 }
 
 double in_ms(Nanoseconds t) { return seconds(t) * 1e3; }
 
-void check_mixture(std::string_view who, const StreamFacts& stream,
+void check_mixture(std::string_view who, const StreamStatistics& stream,
                    std::vector<Finding>& findings) {
   const std::size_t most = *std::ranges::max_element(stream.clocks);
   if (stream.samples == most) return;
@@ -33,7 +33,7 @@ void check_mixture(std::string_view who, const StreamFacts& stream,
                       "refused and counted"});
 }
 
-void check_clock_of(std::string_view who, const StreamFacts& images, const PoseFacts& poses,
+void check_clock_of(std::string_view who, const StreamStatistics& images, const PoseFacts& poses,
                     std::vector<Finding>& findings) {
   const ClockDomain a = clock_of(images);
   const ClockDomain b = clock_of(poses);
@@ -68,7 +68,7 @@ void check_continuity(const DoctorExam& exam, std::vector<Finding>& findings) {
          fmt::format("the stamps of {} images agree neither with those before nor after", bad),
          "they are lost (bad_stamp); look for what stamps them"});
   }
-  const bool has_seen = std::ranges::any_of(exam.facts->cameras, &CameraFacts::samples);
+  const bool has_seen = std::ranges::any_of(exam.facts->cameras, &CameraStatistics::samples);
   if (has_seen && exam.facts->cameras.size() > 1) {
     for (std::string& note : silence_notes(*exam.facts, exam.rig)) {
       findings.push_back({Severity::kWarning, std::move(note),
@@ -92,7 +92,7 @@ void check_clocks(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.facts || exam.facts->poses.samples == 0) return;
   check_mixture("poses", exam.facts->poses, findings);
   for (std::size_t i = 0; i < exam.facts->cameras.size(); ++i) {
-    const CameraFacts& camera = exam.facts->cameras[i];
+    const CameraStatistics& camera = exam.facts->cameras[i];
     if (camera.samples == 0) continue;
     check_mixture(exam.rig.cameras[i].title(), camera, findings);
     check_clock_of(exam.rig.cameras[i].title(), camera, exam.facts->poses, findings);
@@ -103,7 +103,7 @@ void check_depth_rate(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.facts) return;
   check_continuity(exam, findings);
   for (std::size_t i = 0; i < exam.facts->cameras.size(); ++i) {
-    const CameraFacts& camera = exam.facts->cameras[i];
+    const CameraStatistics& camera = exam.facts->cameras[i];
     const std::string who = exam.rig.cameras[i].title();
     if (camera.samples == 0) {
       findings.push_back(
@@ -159,7 +159,7 @@ void check_overlap(const DoctorExam& exam, std::vector<Finding>& findings) {
   if (!exam.facts || !exam.facts->poses.first) return;
   const PoseFacts& poses = exam.facts->poses;
   for (std::size_t i = 0; i < exam.facts->cameras.size(); ++i) {
-    const CameraFacts& camera = exam.facts->cameras[i];
+    const CameraStatistics& camera = exam.facts->cameras[i];
     if (!camera.first || !is_same_clock(clock_of(camera), clock_of(poses))) continue;
     const Nanoseconds offset = exam.rig.cameras[i].pose_offset;
     const Stamp first = std::max(*camera.first + offset, *poses.first);

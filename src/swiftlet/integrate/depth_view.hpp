@@ -6,16 +6,16 @@
 #include <cstdint>
 
 #include "swiftlet/base/frame_of.hpp"
-#include "swiftlet/condition/conditioned_depth.hpp"
 #include "swiftlet/frame/intrinsics.hpp"
 #include "swiftlet/integrate/image/depth_range_pyramid.hpp"
+#include "swiftlet/preprocess/preprocessed_depth.hpp"
 
 namespace swiftlet {
 
-/// One conditioned frame, as it is integrated. Refers to what it was made of, which must outlive
+/// One preprocessed frame, as it is integrated. Refers to what it was made of, which must outlive
 /// it.
 struct DepthView {
-  const ConditionedDepth& depth;
+  const PreprocessedDepth& depth;
   const DepthRangePyramid& pyramid;     ///< of depth.raw
   const PinholeIntrinsics& intrinsics;  ///< of the full image
   const Transform<World, Camera>& T_world_camera;

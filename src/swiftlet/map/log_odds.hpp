@@ -11,8 +11,9 @@ namespace swiftlet {
 /// Belief about one cell: log-odds in steps around 127, saturating. The values are on disk and on
 /// the wire.
 using QuantizedLogOdds = std::uint8_t;
-inline constexpr QuantizedLogOdds kFreeCell = 0;        ///< as free as can be told
-inline constexpr QuantizedLogOdds kUnknownCell = 127;   ///< L = 0: prior, or evidence that cancels out
+inline constexpr QuantizedLogOdds kFreeCell = 0;  ///< as free as can be told
+inline constexpr QuantizedLogOdds kUnknownCell =
+    127;  ///< L = 0: prior, or evidence that cancels out
 inline constexpr QuantizedLogOdds kOccupiedCell = 255;  ///< as occupied as can be told
 
 /// Adds whole steps; saturates at both ends.

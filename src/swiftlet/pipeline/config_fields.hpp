@@ -80,7 +80,7 @@ void quality(Options& o, Visit& visit) {
 
 template <class Options, class Visit>
 void depth(Options& o, Visit& visit) {
-  visit(ConfigField{"depth.steps", "conditioning steps, in order"}, o.steps);
+  visit(ConfigField{"depth.steps", "preprocessing steps, in order"}, o.steps);
   visit(ConfigField{"depth.min_range_m", "nearer readings are dropped", 0.0, 100.0}, o.min_range_m);
   visit(ConfigField{"depth.max_range_m", "farther readings are dropped", 0.1, 100.0},
         o.max_range_m);

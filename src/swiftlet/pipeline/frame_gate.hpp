@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "swiftlet/condition/frame_quality.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/pipeline/frame_verdict.hpp"
+#include "swiftlet/preprocess/frame_quality.hpp"
 
 namespace swiftlet {
 

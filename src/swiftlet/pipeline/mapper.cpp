@@ -20,18 +20,18 @@ Expected<Mapper> Mapper::create(const MapperConfig& config, BlockArchive* archiv
   }
   auto map = RollingMap::create(config.map, config.scale());
   if (!map) return forward_error(std::move(map));
-  auto conditioner = Conditioner::create(config.conditioning());
-  if (!conditioner) return forward_error(std::move(conditioner));
+  auto preprocessor = Preprocessor::create(config.preprocessing());
+  if (!preprocessor) return forward_error(std::move(preprocessor));
   const auto model = find_measurement_model(config.integrate.model);
   if (!model) return tl::make_unexpected(model.error());
   auto integrator = make_integrator(config.integrate);
   if (!integrator) return forward_error(std::move(integrator));
-  return Mapper(config, archive, std::move(*map), std::move(*conditioner), model->make(),
+  return Mapper(config, archive, std::move(*map), std::move(*preprocessor), model->make(),
                 std::move(*integrator));
 }
 
 Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map,
-               Conditioner conditioner, MeasurementModelPtr model,
+               Preprocessor preprocessor, MeasurementModelPtr model,
                std::unique_ptr<Integrator> integrator)
     : config_(config),
       clears_for_new_world_(config.on_new_world == kClearForNewWorld),
@@ -39,7 +39,7 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
       archive_(archive),
       map_(std::move(map)),
       gate_(std::make_unique<FrameGate>(config.quality)),
-      conditioner_(std::move(conditioner)),
+      preprocessor_(std::move(preprocessor)),
       model_(std::move(model)),
       integrator_(std::move(integrator)) {
   if (config.integrate.decay_s > 0.0)
@@ -100,10 +100,10 @@ MapUpdate Mapper::integrate(const Frame& frame) {
     return update;
   }
   const SensorOptions instrument = instrument_of(frame);
-  const ConditionedDepth& depth = conditioner_.clean(
+  const PreprocessedDepth& depth = preprocessor_.clean(
       frame.depth, frame.intrinsics, stereo_noise(frame.intrinsics, instrument).sigma_m(1.0));
   pyramid_.build(depth.raw);
-  timer.finish(Stage::kCondition);
+  timer.finish(Stage::kPreprocess);
   if (pyramid_.readings() == 0) {
     update.verdict = FrameVerdict::kNoReadings;
     return update;
@@ -120,7 +120,7 @@ MapUpdate Mapper::integrate(const Frame& frame) {
 }
 
 void Mapper::fuse(const Frame& frame, const SensorOptions& instrument,
-                  const ConditionedDepth& depth, MapUpdate& update) {
+                  const PreprocessedDepth& depth, MapUpdate& update) {
   SensorOptions left = instrument;
   left.subpixel_px *= double{depth.noise_left};
   const StereoSensor sensor(frame.intrinsics, left, map_.voxel_m(), depth.ratio);

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 
-#include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/measurement_model.hpp"
@@ -17,6 +16,7 @@
 #include "swiftlet/pipeline/lookahead.hpp"
 #include "swiftlet/pipeline/mapper_config.hpp"
 #include "swiftlet/pipeline/stage_times.hpp"
+#include "swiftlet/preprocess/preprocessor.hpp"
 
 namespace swiftlet {
 
@@ -75,14 +75,15 @@ class Mapper {
   }
 
  private:
-  Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map, Conditioner conditioner,
-         MeasurementModelPtr model, std::unique_ptr<Integrator> integrator);
+  Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map,
+         Preprocessor preprocessor, MeasurementModelPtr model,
+         std::unique_ptr<Integrator> integrator);
   [[nodiscard]] std::optional<FrameVerdict> refusal(const Frame& frame);
   [[nodiscard]] bool is_of_other_world(const Frame& frame) const;
   void enter_world_of(const Frame& frame);
   [[nodiscard]] SensorOptions instrument_of(const Frame& frame) const;
   [[nodiscard]] Eigen::Vector3d window_goal(const Frame& frame);
-  void fuse(const Frame& frame, const SensorOptions& instrument, const ConditionedDepth& depth,
+  void fuse(const Frame& frame, const SensorOptions& instrument, const PreprocessedDepth& depth,
             MapUpdate& update);
 
   MapperConfig config_;
@@ -92,7 +93,7 @@ class Mapper {
   BlockArchive* archive_;
   RollingMap map_;
   std::unique_ptr<FrameGate> gate_;
-  Conditioner conditioner_;
+  Preprocessor preprocessor_;
   DepthRangePyramid pyramid_;
   MeasurementModelPtr model_;
   std::unique_ptr<Integrator> integrator_;

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "swiftlet/condition/conditioner.hpp"
 #include "swiftlet/integrate/measurement_models.hpp"
 #include "swiftlet/integrate/rays/ray_method.hpp"
+#include "swiftlet/preprocess/preprocessor.hpp"
 
 namespace swiftlet {
 namespace {
@@ -47,8 +47,8 @@ void keep_fault(std::vector<Error>& faults, std::string_view key, Expected<T>&& 
 
 }  // namespace
 
-ConditionOptions MapperConfig::conditioning() const {
-  ConditionOptions options = depth;
+PreprocessOptions MapperConfig::preprocessing() const {
+  PreprocessOptions options = depth;
   const auto model = find_measurement_model(integrate.model);
   if (!model || model->depth_step.empty()) return options;
   const auto gate = std::ranges::find(options.steps, "range_gate");
@@ -65,7 +65,7 @@ std::vector<Error> MapperConfig::faults() const {
     faults.push_back(
         {ErrorCode::kInvalidConfig, "depth.min_range_m", "is not below depth.max_range_m", {}});
   }
-  keep_fault(faults, "depth.steps", Conditioner::create(depth));
+  keep_fault(faults, "depth.steps", Preprocessor::create(depth));
   keep_fault(faults, "integrate.integrator",
              find_registered(integrators(), integrate.integrator, "integrator"));
   keep_fault(faults, "integrate.model", find_measurement_model(integrate.model));

@@ -7,14 +7,14 @@
 #include <string_view>
 #include <vector>
 
-#include "swiftlet/condition/depth_step.hpp"
-#include "swiftlet/condition/frame_quality.hpp"
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/map/log_odds.hpp"
 #include "swiftlet/map/log_odds_scale.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/pipeline/config_fields.hpp"
 #include "swiftlet/pipeline/lookahead.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
+#include "swiftlet/preprocess/frame_quality.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 
 namespace swiftlet {
@@ -42,7 +42,7 @@ struct MapperConfig {
       kRefuseNewWorld};           ///< kRefuseNewWorld, kClearForNewWorld or kKeepInNewWorld
   WindowOptions window;           ///< where the window lies around the vehicle
   QualityLimits quality;          ///< which images are not worth a fusion
-  ConditionOptions depth;         ///< the steps, and their parameters
+  PreprocessOptions depth;        ///< the steps, and their parameters
   SensorOptions sensor;           ///< geometry and noise of the camera
   IntegrateOptions integrate;     ///< how a frame is fused
   OccupancyThresholds occupancy;  ///< where belief becomes a claim
@@ -52,7 +52,7 @@ struct MapperConfig {
 
   /// The options of the depth steps, with the one that the measurement model wants behind the range
   /// gate.
-  [[nodiscard]] ConditionOptions conditioning() const;
+  [[nodiscard]] PreprocessOptions preprocessing() const;
 
   /// All faults at once; empty if the config can be used. Each names its key.
   [[nodiscard]] std::vector<Error> faults() const;

@@ -13,8 +13,8 @@
 namespace swiftlet {
 
 /// The stages of one frame, in order.
-enum class Stage : std::size_t { kCondition, kRecentre, kIntegrate, kPublish };
-inline constexpr std::array<std::string_view, 4> kStageNames{"condition", "recentre", "integrate",
+enum class Stage : std::size_t { kPreprocess, kRecentre, kIntegrate, kPublish };
+inline constexpr std::array<std::string_view, 4> kStageNames{"preprocess", "recentre", "integrate",
                                                              "publish"};
 
 /// How long each stage of one frame took.

@@ -40,9 +40,9 @@ std::vector<std::string> clock_notes(const FrameTally& tally) {
   return notes;
 }
 
-std::vector<std::string> silence_notes(const RigFacts& facts, const RigOptions& rig) {
+std::vector<std::string> silence_notes(const RigStatistics& facts, const RigOptions& rig) {
   std::optional<Stamp> first, last;
-  for (const CameraFacts& camera : facts.cameras) {
+  for (const CameraStatistics& camera : facts.cameras) {
     if (!camera.first) continue;
     first = first ? std::min(*first, *camera.first) : *camera.first;
     last = last ? std::max(*last, *camera.last) : *camera.last;
@@ -59,10 +59,10 @@ std::vector<std::string> silence_notes(const RigFacts& facts, const RigOptions& 
   return notes;
 }
 
-std::vector<std::string> intrinsics_notes(const RigFacts& facts, const RigOptions& rig) {
+std::vector<std::string> intrinsics_notes(const RigStatistics& facts, const RigOptions& rig) {
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < facts.cameras.size(); ++i) {
-    const CameraFacts& camera = facts.cameras[i];
+    const CameraStatistics& camera = facts.cameras[i];
     if (!camera.intrinsics_changed) continue;
     notes.push_back(
         fmt::format("{}: its intrinsics changed {}, first {:.2f} s after its first "
@@ -76,9 +76,9 @@ std::vector<std::string> intrinsics_notes(const RigFacts& facts, const RigOption
 std::vector<std::string> source_notes(const FrameSource& source) {
   std::vector<std::string> notes = source.info().choices;
   append(notes, clock_notes(source.tally()));
-  if (source.facts() != nullptr && source.rig() != nullptr) {
-    append(notes, silence_notes(*source.facts(), *source.rig()));
-    append(notes, intrinsics_notes(*source.facts(), *source.rig()));
+  if (source.statistics() != nullptr && source.rig() != nullptr) {
+    append(notes, silence_notes(*source.statistics(), *source.rig()));
+    append(notes, intrinsics_notes(*source.statistics(), *source.rig()));
   }
   return notes;
 }

@@ -19,9 +19,10 @@ namespace swiftlet {
 /// "the clock of the poses was set back 1 time, by 30.0 s" and the like; none if it never was.
 [[nodiscard]] std::vector<std::string> clock_notes(const FrameTally& tally);
 /// "camera 'left': no image after 3.40 s of 10.00"; none if all went on to the end.
-[[nodiscard]] std::vector<std::string> silence_notes(const RigFacts& facts, const RigOptions& rig);
+[[nodiscard]] std::vector<std::string> silence_notes(const RigStatistics& facts,
+                                                     const RigOptions& rig);
 /// "camera 'front': its intrinsics changed 1 time, ..."; none if they did not.
-[[nodiscard]] std::vector<std::string> intrinsics_notes(const RigFacts& facts,
+[[nodiscard]] std::vector<std::string> intrinsics_notes(const RigStatistics& facts,
                                                         const RigOptions& rig);
 
 /// "1 time", "3 times"

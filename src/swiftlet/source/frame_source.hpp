@@ -19,7 +19,7 @@
 #include "swiftlet/source/intrinsics_note.hpp"
 #include "swiftlet/source/rig/stamp_judge.hpp"
 #include "swiftlet/source/rig_event.hpp"
-#include "swiftlet/source/rig_facts.hpp"
+#include "swiftlet/source/rig_statistics.hpp"
 
 namespace swiftlet {
 
@@ -94,7 +94,7 @@ class FrameSource {
 
   /// What has come from the instruments, used or not, and how they are mounted; null for sources
   /// that are no rig. Both stay where they are; next() changes the facts.
-  [[nodiscard]] virtual const RigFacts* facts() const { return nullptr; }
+  [[nodiscard]] virtual const RigStatistics* statistics() const { return nullptr; }
   /// The cameras and mounts that it joins; null if it is no rig.
   [[nodiscard]] virtual const RigOptions* rig() const { return nullptr; }
 

@@ -29,8 +29,8 @@ struct StationOptions {
   std::size_t max_downloads = 16;    ///< of the map file, among them
   std::size_t max_waiting = 32;      ///< connections of who has not shown yet that he may look
   std::size_t max_download_bytes = std::size_t{64} << 20U;  ///< of map files that are being taken
-  std::chrono::milliseconds patience{3000};  ///< from a connection to the whole of its request
-  std::chrono::milliseconds tick{50};        ///< how often the map is polled
+  std::chrono::milliseconds timeout{3000};  ///< from a connection to the whole of its request
+  std::chrono::milliseconds tick{50};       ///< how often the map is polled
   MapSaver save_map;    ///< for who asks for the map as a file; empty: nobody can
   TellOperator tell{};  ///< who was turned away and why, now and then; may be empty
 };

@@ -24,7 +24,7 @@ describe('the golden files', () => {
     expect(hello()).toEqual({
       op: 'hello', protocol: 1, world: 3, source: 'sim:test', version: '1.2.3', live: true, voxel_m: 0.1,
       free_below: 107, occupied_from: 180, logodds_per_step: 0.04, trigger_m: [1, 1, 0.5], min_range_m: 0.2,
-      max_range_m: 5, stages: ['condition', 'recentre', 'integrate', 'publish'],
+      max_range_m: 5, stages: ['preprocess', 'recentre', 'integrate', 'publish'],
       verdicts: ['integrated', 'no_readings'], losses: ['no_pose', 'pose_gap'],
     });
   });

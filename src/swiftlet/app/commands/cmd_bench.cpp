@@ -62,24 +62,24 @@ class Bench {
   Bench(const BenchOptions& options, const eval::Workload& workload)
       : options_(options), workload_(workload) {}
 
-  /// All contenders at one cell size.
+  /// All subjects at one cell size.
   Expected<std::vector<eval::BenchRow>> at_full_resolution(double voxel_m) const {
     MapperConfig config = base();
     config.map.voxel_m = voxel_m;
-    std::vector<eval::Runner> runners;
+    std::vector<eval::TimedSubject> timed;
     for (const int threads : options_.threads) {
       config.integrate.threads = threads;
-      if (auto added = add(runners, "projective", config, 1); !added)
+      if (auto added = add(timed, "projective", config, 1); !added)
         return forward_error(std::move(added));
     }
     config.integrate.threads = 1;
     // A hundred times slower: a few frames tell as much.
-    if (auto added = add(runners, "rays", config, eval::every_nth(10, workload_)); !added)
+    if (auto added = add(timed, "rays", config, eval::every_nth(10, workload_)); !added)
       return forward_error(std::move(added));
-    add_octomap(runners, config);
+    add_octomap(timed, config);
     tell(fmt::format("{}: cells of {} m", workload_.name, voxel_m));
-    eval::race(workload_, runners, shown_progress());
-    return eval::rows_of(workload_, voxel_m, runners, model_note());
+    eval::race(workload_, timed, shown_progress());
+    return eval::rows_of(workload_, voxel_m, timed, model_note());
   }
 
   Expected<std::vector<eval::BenchRow>> at_thesis_setting() const {
@@ -87,14 +87,13 @@ class Bench {
     config.integrate.model = kThesisModel;
     config.map.voxel_m = kThesisCell_m;
     config.depth.downsample = kThesisDownsample;
-    std::vector<eval::Runner> runners;
+    std::vector<eval::TimedSubject> timed;
     for (const char* name : {"projective", "rays"}) {
-      if (auto added = add(runners, name, config, 1); !added)
-        return forward_error(std::move(added));
+      if (auto added = add(timed, name, config, 1); !added) return forward_error(std::move(added));
     }
     tell(fmt::format("{}: the thesis's setting", workload_.name));
-    eval::race(workload_, runners, shown_progress());
-    return eval::rows_of(workload_, kThesisCell_m, runners,
+    eval::race(workload_, timed, shown_progress());
+    return eval::rows_of(workload_, kThesisCell_m, timed,
                          fmt::format(", n = {}", kThesisDownsample));
   }
 
@@ -116,25 +115,25 @@ class Bench {
     return base_config(options_, workload_.max_range_m, workload_.baseline_m);
   }
 
-  static Status add(std::vector<eval::Runner>& runners, const char* name, MapperConfig config,
+  static Status add(std::vector<eval::TimedSubject>& timed, const char* name, MapperConfig config,
                     std::size_t every) {
     config.integrate.integrator = name;
-    auto contender = eval::make_mapper_contender(config);
-    if (!contender) return forward_error(std::move(contender));
-    runners.push_back({.name = name,
-                       .threads = config.integrate.threads,
-                       .every = every,
-                       .contender = std::move(*contender)});
+    auto subject = eval::make_mapper_subject(config);
+    if (!subject) return forward_error(std::move(subject));
+    timed.push_back({.name = name,
+                     .threads = config.integrate.threads,
+                     .every = every,
+                     .subject = std::move(*subject)});
     return Done{};
   }
 
-  void add_octomap(std::vector<eval::Runner>& runners, const MapperConfig& config) const {
+  void add_octomap(std::vector<eval::TimedSubject>& timed, const MapperConfig& config) const {
     for (const bool is_discretised : {false, true}) {
-      auto contender = eval::make_octomap_contender(config, is_discretised);
-      if (!contender) continue;
-      runners.push_back({.name = is_discretised ? eval::kOctomapDiscretised : eval::kOctomapPlain,
-                         .every = is_discretised ? 1 : eval::every_nth(4, workload_),
-                         .contender = std::move(contender)});
+      auto subject = eval::make_octomap_subject(config, is_discretised);
+      if (!subject) continue;
+      timed.push_back({.name = is_discretised ? eval::kOctomapDiscretised : eval::kOctomapPlain,
+                       .every = is_discretised ? 1 : eval::every_nth(4, workload_),
+                       .subject = std::move(subject)});
     }
   }
 

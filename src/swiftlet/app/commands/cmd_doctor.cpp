@@ -59,7 +59,7 @@ void print_text(const doctor::DoctorExam& exam, const std::vector<Diagnosis>& al
              warnings == 1 ? "" : "s");
 }
 
-nlohmann::ordered_json stream_json(const StreamFacts& stream) {
+nlohmann::ordered_json stream_json(const StreamStatistics& stream) {
   nlohmann::ordered_json json{{"samples", stream.samples},
                               {"rate_hz", stream.rate_hz()},
                               {"longest_gap_ms", seconds(stream.longest_gap) * 1e3}};
@@ -73,7 +73,7 @@ nlohmann::ordered_json stream_json(const StreamFacts& stream) {
 
 nlohmann::ordered_json devices_json(const RealsenseSystem& system) {
   auto devices = nlohmann::ordered_json::array();
-  for (const RealsenseFacts& device : system.devices) {
+  for (const DeviceInfo& device : system.devices) {
     devices.push_back({{"name", device.name},
                        {"serial", device.serial},
                        {"firmware", device.firmware},
@@ -100,7 +100,7 @@ void print_json(const doctor::DoctorExam& exam, const std::vector<Diagnosis>& al
   if (exam.system) json["realsense"] = devices_json(*exam.system);
   if (exam.facts) {
     json["poses"] = stream_json(exam.facts->poses);
-    for (const CameraFacts& camera : exam.facts->cameras)
+    for (const CameraStatistics& camera : exam.facts->cameras)
       json["cameras"].push_back(stream_json(camera));
   }
   // A serial number or a file name may be no text at all.

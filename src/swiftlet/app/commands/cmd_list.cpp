@@ -9,7 +9,6 @@
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/visible_text.hpp"
-#include "swiftlet/condition/depth_step.hpp"
 #include "swiftlet/config/parameter_table.hpp"
 #include "swiftlet/doctor/doctor_checks.hpp"
 #include "swiftlet/eval/score/score.hpp"
@@ -17,6 +16,7 @@
 #include "swiftlet/integrate/integrator.hpp"
 #include "swiftlet/integrate/measurement_models.hpp"
 #include "swiftlet/integrate/rays/ray_method.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
 #include "swiftlet/render/map_view.hpp"
 #include "swiftlet/sim/built_in_scenes.hpp"
 #include "swiftlet/sim/random/scene_kinds.hpp"

@@ -43,7 +43,7 @@ tl::expected<eval::ScoreJob, Faults> job_of(const ScoreOptions& options) {
   for (std::string& map : job.maps) map = current_model(map, "--maps");
   if (job.maps.empty()) {
     for (const auto& model : measurement_models()) job.maps.emplace_back(model.name);
-    if (eval::make_octomap_contender(config->mapper, false)) job.maps.emplace_back(eval::kOctomap);
+    if (eval::make_octomap_subject(config->mapper, false)) job.maps.emplace_back(eval::kOctomap);
   }
   return job;
 }

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "swiftlet/eval/bench/bench_contender.hpp"
 #include "swiftlet/eval/bench/bench_points.hpp"
+#include "swiftlet/eval/bench/benchmark_subject.hpp"
 #include "swiftlet/map/memory_archive.hpp"
 #include "swiftlet/query/box_query.hpp"
 
@@ -43,9 +43,9 @@ class WholeFlight : public VoxelLookup<WholeFlight> {
   const MemoryArchive* left_;
 };
 
-class MapperContender final : public Contender {
+class MapperSubject final : public BenchmarkSubject {
  public:
-  MapperContender(Mapper mapper, std::unique_ptr<MemoryArchive> archive)
+  MapperSubject(Mapper mapper, std::unique_ptr<MemoryArchive> archive)
       : archive_(std::move(archive)), mapper_(std::move(mapper)) {}
 
   std::optional<StageTimes> fuse(const Frame& frame) override {
@@ -64,16 +64,16 @@ class MapperContender final : public Contender {
   Mapper mapper_;
 };
 
-class PointsContender final : public Contender {
+class PointsSubject final : public BenchmarkSubject {
  public:
-  explicit PointsContender(ConditionOptions range) : range_(std::move(range)) {}
+  explicit PointsSubject(PreprocessOptions range) : range_(std::move(range)) {}
 
   std::optional<StageTimes> fuse(const Frame& frame) override {
     StageTimes times;
     StageTimer timer(times);
     points_.clear();
     for_each_point(frame, range_, [&](const Eigen::Vector3f& p) { points_.push_back(p); });
-    timer.finish(Stage::kCondition);
+    timer.finish(Stage::kPreprocess);
     return times;
   }
   [[nodiscard]] std::size_t map_bytes() const override { return 0; }
@@ -82,22 +82,22 @@ class PointsContender final : public Contender {
   }
 
  private:
-  ConditionOptions range_;
+  PreprocessOptions range_;
   std::vector<Eigen::Vector3f> points_;
 };
 
 }  // namespace
 
-Expected<std::unique_ptr<Contender>> make_mapper_contender(const MapperConfig& config,
-                                                           bool keeps_all) {
+Expected<std::unique_ptr<BenchmarkSubject>> make_mapper_subject(const MapperConfig& config,
+                                                                bool keeps_all) {
   auto archive = keeps_all ? std::make_unique<MemoryArchive>() : nullptr;
   auto mapper = Mapper::create(config, archive.get());
   if (!mapper) return forward_error(std::move(mapper));
-  return std::make_unique<MapperContender>(std::move(*mapper), std::move(archive));
+  return std::make_unique<MapperSubject>(std::move(*mapper), std::move(archive));
 }
 
-std::unique_ptr<Contender> make_points_contender(const MapperConfig& config) {
-  return std::make_unique<PointsContender>(config.depth);
+std::unique_ptr<BenchmarkSubject> make_points_subject(const MapperConfig& config) {
+  return std::make_unique<PointsSubject>(config.depth);
 }
 
 }  // namespace swiftlet::eval

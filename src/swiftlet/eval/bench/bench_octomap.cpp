@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/eval/bench/bench_contender.hpp"
+#include "swiftlet/eval/bench/benchmark_subject.hpp"
 
 #if SWIFTLET_HAS_OCTOMAP
 
@@ -14,9 +14,9 @@
 namespace swiftlet::eval {
 namespace {
 
-class OctomapContender final : public Contender {
+class OctomapSubject final : public BenchmarkSubject {
  public:
-  OctomapContender(const MapperConfig& config, bool is_discretised)
+  OctomapSubject(const MapperConfig& config, bool is_discretised)
       : range_(config.depth), is_discretised_(is_discretised), tree_(config.map.voxel_m) {}
 
   std::optional<StageTimes> fuse(const Frame& frame) override {
@@ -26,7 +26,7 @@ class OctomapContender final : public Contender {
     cloud.reserve(frame.depth.raw.pixels().size());
     for_each_point(frame, range_,
                    [&](const Eigen::Vector3f& p) { cloud.push_back(p.x(), p.y(), p.z()); });
-    timer.finish(Stage::kCondition);
+    timer.finish(Stage::kPreprocess);
     const Eigen::Vector3f o = frame.T_world_camera.translation().cast<float>();
     // No limit of range: the cloud keeps it by depth, as ours does. A limit by distance would cut
     // the rays at the image's edge.
@@ -64,15 +64,16 @@ class OctomapContender final : public Contender {
     return {key(v.x), key(v.y), key(v.z)};
   }
 
-  ConditionOptions range_;
+  PreprocessOptions range_;
   bool is_discretised_;
   octomap::OcTree tree_;
 };
 
 }  // namespace
 
-std::unique_ptr<Contender> make_octomap_contender(const MapperConfig& config, bool is_discretised) {
-  return std::make_unique<OctomapContender>(config, is_discretised);
+std::unique_ptr<BenchmarkSubject> make_octomap_subject(const MapperConfig& config,
+                                                       bool is_discretised) {
+  return std::make_unique<OctomapSubject>(config, is_discretised);
 }
 
 }  // namespace swiftlet::eval
@@ -81,7 +82,9 @@ std::unique_ptr<Contender> make_octomap_contender(const MapperConfig& config, bo
 
 namespace swiftlet::eval {
 
-std::unique_ptr<Contender> make_octomap_contender(const MapperConfig&, bool) { return nullptr; }
+std::unique_ptr<BenchmarkSubject> make_octomap_subject(const MapperConfig&, bool) {
+  return nullptr;
+}
 
 }  // namespace swiftlet::eval
 

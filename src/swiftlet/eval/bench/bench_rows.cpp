@@ -47,17 +47,17 @@ Machine this_machine() {
 }
 
 std::vector<BenchRow> rows_of(const Workload& workload, double cell_m,
-                              const std::vector<Runner>& runners, const std::string& suffix) {
+                              const std::vector<TimedSubject>& timed, const std::string& suffix) {
   const auto pixels = static_cast<double>(workload.frames.front().depth.raw.pixels().size());
   std::vector<BenchRow> rows;
-  for (const Runner& r : runners) {
+  for (const TimedSubject& r : timed) {
     const auto at = [&](double share) { return in_ms(r.latency.frame_percentile(share)); };
     constexpr double kLeast = 1e-9;  // of any number of frames that is the first
     const double median_ms = at(0.5);
     const double mpixel_s = median_ms > 0.0 ? 1e-3 * pixels / median_ms : 0.0;
     rows.push_back({workload.name + suffix, cell_m, r.name, r.threads, r.latency.frame_count(),
-                    at(kLeast), median_ms, at(0.99), mpixel_s, r.contender->map_bytes(),
-                    std::nullopt, std::nullopt});
+                    at(kLeast), median_ms, at(0.99), mpixel_s, r.subject->map_bytes(), std::nullopt,
+                    std::nullopt});
   }
   const auto plain_ms = median_of(rows, kOctomapPlain);
   const auto discretised_ms = median_of(rows, kOctomapDiscretised);

@@ -47,7 +47,7 @@ inline constexpr const char* kOctomapDiscretised = "octomap_discretised";
 
 /// The rows of one race. `suffix` goes behind the workload's name.
 [[nodiscard]] std::vector<BenchRow> rows_of(const Workload& workload, double cell_m,
-                                            const std::vector<Runner>& runners,
+                                            const std::vector<TimedSubject>& timed,
                                             const std::string& suffix = {});
 
 }  // namespace swiftlet::eval

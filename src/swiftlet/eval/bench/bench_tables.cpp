@@ -14,7 +14,7 @@
 namespace swiftlet::eval {
 namespace {
 
-/// The runners of the tables, in the order of the race.
+/// The timed subjects of the tables, in the order of the race.
 enum class Run : std::size_t {
   kPoints,
   kTraversal10,
@@ -37,36 +37,36 @@ constexpr std::array kSettings{
     Setting{"projective", "voxel_traversal", 10}, Setting{"projective", "voxel_traversal", 8},
     Setting{"projective", "voxel_traversal", 1}};
 
-Expected<std::vector<Runner>> make_runners(const Workload& workload, MapperConfig config) {
+Expected<std::vector<TimedSubject>> make_timed(const Workload& workload, MapperConfig config) {
   config.integrate.model = kThesisModel;
   config.map.voxel_m = kThesisTablesVoxel_m;
   config.depth.downsample = 1;
   config.integrate.threads = 1;
-  std::vector<Runner> runners;
-  runners.push_back({.name = "points", .contender = make_points_contender(config)});
+  std::vector<TimedSubject> timed;
+  timed.push_back({.name = "points", .subject = make_points_subject(config)});
   for (const Setting& s : kSettings) {
     config.integrate.integrator = s.integrator;
     config.integrate.ray_method = s.ray_method;
     config.depth.downsample = s.downsample;
-    auto contender = make_mapper_contender(config);
-    if (!contender) return forward_error(std::move(contender));
+    auto subject = make_mapper_subject(config);
+    if (!subject) return forward_error(std::move(subject));
     const bool is_slow = s.downsample == 1 && std::string_view(s.integrator) == "rays";
-    runners.push_back({.name = s.integrator,
-                       .every = is_slow ? every_nth(10, workload) : 1,
-                       .contender = std::move(*contender)});
+    timed.push_back({.name = s.integrator,
+                     .every = is_slow ? every_nth(10, workload) : 1,
+                     .subject = std::move(*subject)});
   }
-  return runners;
+  return timed;
 }
 
 }  // namespace
 
 Expected<ThesisTables> measure_thesis_tables(const Workload& workload, MapperConfig config,
                                              const ProgressFunction& progress) {
-  auto runners = make_runners(workload, std::move(config));
-  if (!runners) return forward_error(std::move(runners));
-  race(workload, *runners, progress);
+  auto timed = make_timed(workload, std::move(config));
+  if (!timed) return forward_error(std::move(timed));
+  race(workload, *timed, progress);
   const auto latency = [&](Run run) -> const Latency& {
-    return (*runners)[static_cast<std::size_t>(run)].latency;
+    return (*timed)[static_cast<std::size_t>(run)].latency;
   };
   const auto stage = [&](Run run, Stage s) {
     return 1e3 * seconds(latency(run).stage_percentile(s, 0.5));
@@ -74,8 +74,8 @@ Expected<ThesisTables> measure_thesis_tables(const Workload& workload, MapperCon
   const auto frame = [&](Run run) { return 1e3 * seconds(latency(run).frame_percentile(0.5)); };
   ThesisTables tables{workload.name, {}, {}};
   tables.functions = {
-      {"resolution downsampling, 10 x 10", 5.48, stage(Run::kLine10, Stage::kCondition)},
-      {"point extraction, full resolution", 19.16, stage(Run::kPoints, Stage::kCondition)},
+      {"resolution downsampling, 10 x 10", 5.48, stage(Run::kLine10, Stage::kPreprocess)},
+      {"point extraction, full resolution", 19.16, stage(Run::kPoints, Stage::kPreprocess)},
       {"fast voxel traversal + map update, 10 x 10", 10.49,
        stage(Run::kTraversal10, Stage::kIntegrate)},
       {"line drawing + map update, 10 x 10", 9.77, stage(Run::kLine10, Stage::kIntegrate)}};

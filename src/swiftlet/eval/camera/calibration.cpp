@@ -23,7 +23,8 @@ Expected<WallImages> read_wall(const std::string& source, std::size_t frames) {
     if (!frame) return forward_error(std::move(frame));
     if (!*frame) break;
     if (!wall) wall.emplace(WallImages{{}, (*frame)->intrinsics});
-    if ((*frame)->intrinsics == wall->lens) wall->images.push_back(std::move((*frame)->depth));
+    if ((*frame)->intrinsics == wall->intrinsics)
+      wall->images.push_back(std::move((*frame)->depth));
   }
   if (wall) return std::move(*wall);
   return fail(ErrorCode::kCorruptInput, source, "it has no depth image", "record some");
@@ -100,7 +101,7 @@ Figure top_view(const CalibratedWall& wall, const std::vector<Version>& versions
   Figure figure{"top_view_" + name, fmt::format("Top view of a wall at {:.2f} m", wall.distance_m),
                 "X, to the right [m]", "depth [m]"};
   for (const Version& version : versions) {
-    const PinholeIntrinsics& k = version.wall.lens;
+    const PinholeIntrinsics& k = version.wall.intrinsics;
     Curve curve{version.name, {}, false};
     for (int strip = 0; strip < kStrips; ++strip) {
       const int u0 = strip * k.width() / kStrips, u1 = (strip + 1) * k.width() / kStrips;

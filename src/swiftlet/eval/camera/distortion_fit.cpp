@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "swiftlet/base/narrow.hpp"
-#include "swiftlet/condition/depth_step.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
 
 namespace swiftlet::eval {
 namespace {
@@ -26,7 +26,7 @@ Terms terms_of(const Eigen::Vector3d& p) {
 template <class Visit>
 void for_each_point(const WallImages& wall, Visit&& visit) {
   constexpr std::size_t kMost = 500'000;
-  const PinholeIntrinsics& k = wall.lens;
+  const PinholeIntrinsics& k = wall.intrinsics;
   const std::size_t pixels = static_cast<std::size_t>(k.width()) *
                              static_cast<std::size_t>(k.height()) * wall.images.size();
   // Odd, so that it does not fall on the same columns in every row.
@@ -80,7 +80,7 @@ struct Tile {
 };
 std::array<Tile, kTiles> tiles_of(const WallImages& wall) {
   std::array<Tile, kTiles> tiles{};
-  const int width = wall.lens.width(), height = wall.lens.height();
+  const int width = wall.intrinsics.width(), height = wall.intrinsics.height();
   for_each_point(wall, [&](int u, int v, const Eigen::Vector3d& p) {
     const int place = v * kTilesY / height * kTilesX + u * kTilesX / width;
     Tile& tile = tiles[to<std::size_t>(place)];
@@ -120,15 +120,15 @@ double tilt_rad(const DepthDistortion& distortion) {
 }
 
 WallImages straightened(const WallImages& wall, const DepthDistortion& distortion) {
-  ConditionOptions options;
+  PreprocessOptions options;
   options.distortion = distortion;
   const auto step = find_registered(depth_steps(), "distortion", "depth step")->make(options);
-  WallImages straight{{}, wall.lens};
+  WallImages straight{{}, wall.intrinsics};
   for (const DepthImage& image : wall.images) {
-    ConditionedDepth depth;
+    PreprocessedDepth depth;
     depth.raw = image.raw;
     depth.unit_m = image.unit_m;
-    depth.lens = wall.lens;
+    depth.intrinsics = wall.intrinsics;
     step->apply(depth);
     straight.images.push_back({std::move(depth.raw), image.unit_m});
   }

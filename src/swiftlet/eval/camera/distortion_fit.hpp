@@ -9,16 +9,16 @@
 #include <vector>
 
 #include "swiftlet/base/expected.hpp"
-#include "swiftlet/condition/depth_distortion.hpp"
 #include "swiftlet/frame/depth_image.hpp"
 #include "swiftlet/frame/intrinsics.hpp"
+#include "swiftlet/preprocess/depth_distortion.hpp"
 
 namespace swiftlet::eval {
 
 /// Depth images of a flat wall that a camera faces.
 struct WallImages {
   std::vector<DepthImage> images;
-  PinholeIntrinsics lens;
+  PinholeIntrinsics intrinsics;
 };
 
 struct DistortionFit {

@@ -11,16 +11,17 @@
 
 namespace swiftlet::eval {
 
-std::optional<WallNoise> measure_wall(const DepthImage& depth, const PinholeIntrinsics& lens) {
+std::optional<WallNoise> measure_wall(const DepthImage& depth,
+                                      const PinholeIntrinsics& intrinsics) {
   constexpr std::size_t kFewest = 100;
-  const int u0 = lens.width() / 3, u1 = 2 * lens.width() / 3;
-  const int v0 = lens.height() / 3, v1 = 2 * lens.height() / 3;
+  const int u0 = intrinsics.width() / 3, u1 = 2 * intrinsics.width() / 3;
+  const int v0 = intrinsics.height() / 3, v1 = 2 * intrinsics.height() / 3;
   const auto for_each_reading = [&](auto&& visit) {
     for (int v = v0; v < v1; ++v) {
       for (int u = u0; u < u1; ++u) {
         if (depth.raw.at(u, v) == 0) continue;
         const double z_m = depth.depth_m(u, v);
-        visit(Eigen::Vector3d(lens.back_project(u, v, 1.0)), z_m);
+        visit(Eigen::Vector3d(intrinsics.back_project(u, v, 1.0)), z_m);
       }
     }
   };

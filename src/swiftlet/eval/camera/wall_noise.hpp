@@ -24,7 +24,7 @@ struct WallNoise {
 /// nullopt with fewer than 100 readings. A wall may be tilted: 1 / z of a plane is linear in the
 /// image, and so it is fitted.
 [[nodiscard]] std::optional<WallNoise> measure_wall(const DepthImage& depth,
-                                                    const PinholeIntrinsics& lens);
+                                                    const PinholeIntrinsics& intrinsics);
 
 /// The disparity error s [px] for which z^2 s / (f B) is nearest to what was measured, each wall
 /// relative to its own. REQUIRES: walls not empty.

@@ -28,7 +28,7 @@ constexpr Nanoseconds kPhantomsEvery = std::chrono::seconds(1);
 
 /// A map under test, and what was noted of it during the flight.
 struct Tested {
-  Entrant entrant;
+  ScoredMap scored;
   Claims claims;  // over the whole truth
   CellGrid<std::uint8_t> ever_occupied;
   Claims mover_claims;  // where something moves
@@ -38,9 +38,9 @@ struct Tested {
 /// The scene and its true poses.
 class FlownWorld {
  public:
-  FlownWorld(SimFlight flight, sim::RayCaster caster, const PinholeIntrinsics& lens,
-             const ConditionOptions& range)
-      : flight_(std::move(flight)), caster_(std::move(caster)), lens_(lens) {
+  FlownWorld(SimFlight flight, sim::RayCaster caster, const PinholeIntrinsics& intrinsics,
+             const PreprocessOptions& range)
+      : flight_(std::move(flight)), caster_(std::move(caster)), intrinsics_(intrinsics) {
     sight_.min_range_m = range.min_range_m;
     sight_.max_range_m = range.max_range_m;
   }
@@ -51,9 +51,10 @@ class FlownWorld {
     auto caster = sim::RayCaster::create(flight->scene);
     if (!caster) return forward_error(std::move(caster));
     const sim::StereoOptions& camera = flight->scene.camera;
-    auto lens = PinholeIntrinsics::from_field_of_view(camera.width, camera.height, camera.hfov_rad);
-    if (!lens) return forward_error(std::move(lens));
-    return FlownWorld(std::move(*flight), std::move(*caster), *lens, job.config.depth);
+    auto intrinsics =
+        PinholeIntrinsics::from_field_of_view(camera.width, camera.height, camera.hfov_rad);
+    if (!intrinsics) return forward_error(std::move(intrinsics));
+    return FlownWorld(std::move(*flight), std::move(*caster), *intrinsics, job.config.depth);
   }
 
   [[nodiscard]] const sim::Scene& scene() const { return flight_.scene; }
@@ -62,10 +63,10 @@ class FlownWorld {
   void look(Stamp stamp, std::size_t camera, int stride_px, std::vector<SightLine>& lines) {
     caster_.move_to(flight_.flown(stamp));
     sight_.stride_px = stride_px;
-    lines_of_sight(caster_, {lens_, flight_.true_pose(stamp, camera)}, sight_, lines);
+    lines_of_sight(caster_, {intrinsics_, flight_.true_pose(stamp, camera)}, sight_, lines);
   }
   void look_at(Stamp stamp, std::size_t camera, std::vector<ThinCell>& cells) {
-    eval::look_at(cells, caster_, {lens_, flight_.true_pose(stamp, camera)}, sight_);
+    eval::look_at(cells, caster_, {intrinsics_, flight_.true_pose(stamp, camera)}, sight_);
   }
   [[nodiscard]] std::vector<sim::Object> movers(Stamp stamp) const {
     return movers_at(flight_.scene, flight_.flown(stamp));
@@ -99,7 +100,7 @@ class FlownWorld {
  private:
   SimFlight flight_;
   sim::RayCaster caster_;
-  PinholeIntrinsics lens_;
+  PinholeIntrinsics intrinsics_;
   SightOptions sight_;
 };
 
@@ -114,7 +115,7 @@ VoxelBox bounds_of(const std::vector<VoxelIndex>& cells) {
 /// A flight, with everything that is noted on the way.
 class Judge {
  public:
-  Judge(FlownWorld world, const VoxelBox& box, double voxel_m, std::vector<Entrant> entrants)
+  Judge(FlownWorld world, const VoxelBox& box, double voxel_m, std::vector<ScoredMap> scored_maps)
       : world_(std::move(world)), truth_(world_.scene().objects, voxel_m, box) {
     const auto swept = swept_cells(world_.scene(), voxel_m, box);
     for (const VoxelIndex& v : swept) truth_.mark_swept(v);
@@ -122,15 +123,15 @@ class Judge {
     has_movers_ = !swept.empty();
     const VoxelBox movers = bounds_of(swept);
     sights_ = MoverSights(movers, MoverSight::kNothing);
-    for (Entrant& entrant : entrants) {
-      tested_.push_back({std::move(entrant), Claims(box, Occupancy::kUnknown),
+    for (ScoredMap& scored : scored_maps) {
+      tested_.push_back({std::move(scored), Claims(box, Occupancy::kUnknown),
                          CellGrid<std::uint8_t>(box, 0), Claims(movers, Occupancy::kUnknown),
                          Reactions(movers)});
     }
   }
 
   void fuse(const Frame& frame) {
-    for (Tested& t : tested_) t.entrant.map->fuse(frame);
+    for (Tested& t : tested_) t.scored.map->fuse(frame);
     if (!first_) first_ = frame.stamp;
     last_ = frame.stamp;
     ++frames_;
@@ -157,8 +158,8 @@ class Judge {
                        .maps = {}};
     const Claims* reference = nullptr;
     for (const Tested& t : tested_) {
-      report.maps.push_back(t.entrant.name);
-      if (t.entrant.name == kOctomap) reference = &t.claims;
+      report.maps.push_back(t.scored.name);
+      if (t.scored.name == kOctomap) reference = &t.claims;
     }
     report.findings.resize(tested_.size());
     for (const auto& score : scores()) {
@@ -179,7 +180,7 @@ class Judge {
  private:
   void note_occupied() {
     for (Tested& t : tested_) {
-      t.entrant.map->read_claims(t.claims);
+      t.scored.map->read_claims(t.claims);
       const auto claims = t.claims.cells();
       const auto ever = t.ever_occupied.cells();
       for (std::size_t i = 0; i < ever.size(); ++i) {
@@ -195,7 +196,7 @@ class Judge {
       if (truth_.holds_matter(sights_.voxel(i))) sights_.cells()[i] = MoverSight::kNothing;
     }
     for (Tested& t : tested_) {
-      t.entrant.map->read_claims(t.mover_claims);
+      t.scored.map->read_claims(t.mover_claims);
       t.reactions.observe(sights_, t.mover_claims);
     }
   }
@@ -217,14 +218,14 @@ class Judge {
 Expected<ScoreReport> score_flight(const ScoreJob& job) {
   auto source = open_source(job.source);
   if (!source) return forward_error(std::move(source));
-  auto entrants = make_entrants(job);
-  if (!entrants) return forward_error(std::move(entrants));
+  auto scored_maps = make_scored_maps(job);
+  if (!scored_maps) return forward_error(std::move(scored_maps));
   auto world = FlownWorld::create(job);
   if (!world) return forward_error(std::move(world));
   const double voxel_m = job.config.map.voxel_m;
   const auto box = world->extent(voxel_m);
   if (!box) return tl::make_unexpected(box.error());
-  Judge judge(std::move(*world), *box, voxel_m, std::move(*entrants));
+  Judge judge(std::move(*world), *box, voxel_m, std::move(*scored_maps));
   const std::size_t available = (*source)->info().frame_count.value_or(job.frames);
   const std::size_t wanted = std::min(available, job.frames);
   const ProgressTeller shown(job.progress, available);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "swiftlet/base/progress.hpp"
-#include "swiftlet/eval/bench/bench_contender.hpp"
+#include "swiftlet/eval/bench/benchmark_subject.hpp"
 #include "swiftlet/eval/score/score_report.hpp"
 
 namespace swiftlet::eval {
@@ -24,25 +24,25 @@ struct ScoreJob {
 };
 
 /// A map that takes part. Names are unique.
-struct Entrant {
-  std::string name;                ///< shown in the report
-  std::unique_ptr<Contender> map;  ///< made anew for the job
+struct ScoredMap {
+  std::string name;                       ///< shown in the report
+  std::unique_ptr<BenchmarkSubject> map;  ///< made anew for the job
 };
 
 /// The name of OctoMap among the maps of a job.
 inline constexpr const char* kOctomap = "octomap";
 
-/// The maps of a job. Errors: kUsage for a name that is neither model nor integrator; kUnsupported for OctoMap if
-/// it was not built; those of Mapper::create().
-[[nodiscard]] Expected<std::vector<Entrant>> make_entrants(const ScoreJob& job);
+/// The maps of a job. Errors: kUsage for a name that is neither model nor integrator; kUnsupported
+/// for OctoMap if it was not built; those of Mapper::create().
+[[nodiscard]] Expected<std::vector<ScoredMap>> make_scored_maps(const ScoreJob& job);
 
 /// Flies a simulated flight and judges the maps by the truth.
-/// Errors: those of the source and of make_entrants(); kUsage if the truth needs more cells than
+/// Errors: those of the source and of make_scored_maps(); kUsage if the truth needs more cells than
 /// memory should hold; kUnsupported without Embree.
 [[nodiscard]] Expected<ScoreReport> score_flight(const ScoreJob& job);
 
 /// Maps a recording but for every fifth frame and judges the maps by those.
-/// Errors: those of the source and of make_entrants(); kCorruptInput for fewer than five frames.
+/// Errors: those of the source and of make_scored_maps(); kCorruptInput for fewer than five frames.
 [[nodiscard]] Expected<ScoreReport> score_recording(const ScoreJob& job);
 
 /// The one or the other, by what the source is: by the truth where there is one.

@@ -25,8 +25,8 @@ ScoreValue value_of_share(const char* name, double value, bool higher_is_better,
 Expected<ScoreReport> score_recording(const ScoreJob& job) {
   auto source = open_source(job.source);
   if (!source) return forward_error(std::move(source));
-  auto entrants = make_entrants(job);
-  if (!entrants) return forward_error(std::move(entrants));
+  auto scored_maps = make_scored_maps(job);
+  if (!scored_maps) return forward_error(std::move(scored_maps));
   ScoreReport report{.source = job.source, .voxel_m = job.config.map.voxel_m, .maps = {}};
   report.intrinsics = text_of((*source)->info().intrinsics);
   std::vector<SightLine> left_out;
@@ -39,7 +39,7 @@ Expected<ScoreReport> score_recording(const ScoreJob& job) {
     if (is_left_out(report.frames++)) {
       append_readings(**frame, job.config.depth, kStride_px, left_out);
     } else {
-      for (Entrant& entrant : *entrants) entrant.map->fuse(**frame);
+      for (ScoredMap& scored : *scored_maps) scored.map->fuse(**frame);
     }
     if (!first) first = (*frame)->stamp;
     report.flight_s = seconds((*frame)->stamp - *first);
@@ -49,10 +49,10 @@ Expected<ScoreReport> score_recording(const ScoreJob& job) {
     return fail(ErrorCode::kCorruptInput, job.source, "there is no reading to predict",
                 "every fifth frame is left out: give a recording of five frames or more");
   }
-  for (const Entrant& entrant : *entrants) report.maps.push_back(entrant.name);
-  for (std::size_t i = 0; i < entrants->size(); ++i) {
+  for (const ScoredMap& scored : *scored_maps) report.maps.push_back(scored.name);
+  for (std::size_t i = 0; i < scored_maps->size(); ++i) {
     Claims claims(box_around(left_out, report.voxel_m), Occupancy::kUnknown);
-    (*entrants)[i].map->read_claims(claims);
+    (*scored_maps)[i].map->read_claims(claims);
     const Consistency c = consistency_of(claims, left_out, report.voxel_m);
     add_value(report, i, "leave_out",
               value_of_share("left-out readings that end within 1 cell of an occupied one",

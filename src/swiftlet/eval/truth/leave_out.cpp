@@ -28,7 +28,7 @@ bool is_blocked(const Claims& claims, const GridRay& ray, const VoxelIndex& end)
 
 }  // namespace
 
-void append_readings(const Frame& frame, const ConditionOptions& range, int stride_px,
+void append_readings(const Frame& frame, const PreprocessOptions& range, int stride_px,
                      std::vector<SightLine>& lines) {
   const Image<std::uint16_t>& raw = frame.depth.raw;
   const Eigen::Vector3f eye = frame.T_world_camera.translation().cast<float>();

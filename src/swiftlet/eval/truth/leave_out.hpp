@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "swiftlet/condition/depth_step.hpp"
 #include "swiftlet/eval/truth/cell_grid.hpp"
 #include "swiftlet/eval/truth/sight_line.hpp"
 #include "swiftlet/frame/frame.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
 
 namespace swiftlet::eval {
 
@@ -33,7 +33,7 @@ struct Consistency {
 [[nodiscard]] constexpr bool is_left_out(std::size_t frame_number) { return frame_number % 5 == 4; }
 
 /// Appends every stride-th reading (row and column) of a frame, within range, as a line of sight.
-void append_readings(const Frame& frame, const ConditionOptions& range, int stride_px,
+void append_readings(const Frame& frame, const PreprocessOptions& range, int stride_px,
                      std::vector<SightLine>& lines);
 
 /// The box of cells around lines of sight. REQUIRES: lines not empty.

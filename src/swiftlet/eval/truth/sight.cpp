@@ -14,15 +14,15 @@ namespace swiftlet::eval {
 void lines_of_sight(const sim::RayCaster& world, const TrueView& view, const SightOptions& options,
                     std::vector<SightLine>& lines) {
   lines.clear();
-  const PinholeIntrinsics& lens = view.intrinsics;
+  const PinholeIntrinsics& intrinsics = view.intrinsics;
   const Eigen::Matrix3d R = view.T_world_camera.rotation().toRotationMatrix();
   const Eigen::Vector3f eye = view.T_world_camera.translation().cast<float>();
   std::vector<Eigen::Vector3f> rays;
   std::vector<sim::Hit> hits;
-  for (int v = options.stride_px / 2; v < lens.height(); v += options.stride_px) {
+  for (int v = options.stride_px / 2; v < intrinsics.height(); v += options.stride_px) {
     rays.clear();
-    for (int u = options.stride_px / 2; u < lens.width(); u += options.stride_px)
-      rays.emplace_back((R * lens.back_project(u, v, 1.0)).cast<float>());
+    for (int u = options.stride_px / 2; u < intrinsics.width(); u += options.stride_px)
+      rays.emplace_back((R * intrinsics.back_project(u, v, 1.0)).cast<float>());
     hits.resize(rays.size());
     world.cast(eye, rays, hits);
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "swiftlet/condition/neighbour_kernels.hpp"
 #include "swiftlet/integrate/image/depth_range_pyramid.hpp"
+#include "swiftlet/preprocess/neighbour_kernels.hpp"
 
 namespace swiftlet {
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "swiftlet/condition/conditioned_depth.hpp"
 #include "swiftlet/integrate/depth_view.hpp"
+#include "swiftlet/preprocess/preprocessed_depth.hpp"
 
 namespace swiftlet {
 

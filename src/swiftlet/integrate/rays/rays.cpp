@@ -30,7 +30,7 @@ class RayIntegrator final : public Integrator {
     const RayGeometry geometry(view, map.voxel_m());
 
     IntegrationTally tally;
-    const ConditionedDepth& depth = view.depth;
+    const PreprocessedDepth& depth = view.depth;
     for (int v = 0; v < depth.raw.height(); ++v) {
       for (int u = 0; u < depth.raw.width(); ++u) {
         const std::uint16_t raw = depth.raw.at(u, v);

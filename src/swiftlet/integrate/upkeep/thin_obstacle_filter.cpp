@@ -36,7 +36,7 @@ void ThinObstacleFilter::add(const VoxelIndex& cell, const RollingMap& map) {
 void ThinObstacleFilter::collect(const DepthView& view, const RollingMap& map) {
   ++frame_;
   touched_.clear();
-  const ConditionedDepth& depth = view.depth;
+  const PreprocessedDepth& depth = view.depth;
   const float unit_m = depth.unit_m, voxel_m = static_cast<float>(map.voxel_m());
   const auto fx = static_cast<float>(view.intrinsics.fx()) / static_cast<float>(depth.ratio);
   limits_ = {.half_cell_px = 0.5F * voxel_m * fx / unit_m,

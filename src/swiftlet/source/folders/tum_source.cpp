@@ -123,7 +123,7 @@ class TumSource final : public FrameSource {
 
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return rig_.tally(); }
-  const RigFacts* facts() const override { return &rig_.facts(); }
+  const RigStatistics* statistics() const override { return &rig_.statistics(); }
   const RigOptions* rig() const override { return &rig_.options(); }
   std::vector<RigEvent> take_events() override { return skipped_.take_events(); }
 

@@ -13,7 +13,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr Nanoseconds kGlance = std::chrono::milliseconds(100);  // at whether to go on waiting
+constexpr Nanoseconds kPollPeriod = std::chrono::milliseconds(100);  // at whether to go on waiting
 
 }  // namespace
 
@@ -25,7 +25,7 @@ LiveRig::LiveRig(SourceInfo info, const Options& options)
       image_clocks_(options.rig.cameras.size()),
       last_images_(options.rig.cameras.size()) {
   SWIFTLET_REQUIRE(options.queue.capacity >= 1, "a queue holds a frame");
-  facts_ = rig_.facts();
+  facts_ = rig_.statistics();
 }
 
 void LiveRig::collect() {
@@ -125,7 +125,7 @@ void LiveRig::take_stock() {
   tally_.of(FrameLoss::kOverload) += overloaded_;
   tally_.delivered = delivered_;
   tally_.events = event_counts_;
-  facts_ = rig_.facts();
+  facts_ = rig_.statistics();
 }
 
 Expected<std::optional<Frame>> LiveRig::next() {
@@ -133,9 +133,9 @@ Expected<std::optional<Frame>> LiveRig::next() {
   bool is_unwanted = false;
   std::size_t seen = images_;
   HostTime alive_at = HostTime::clock::now();
-  const auto is_silent = [&] { return HostTime::clock::now() - alive_at > options_.patience; };
+  const auto is_silent = [&] { return HostTime::clock::now() - alive_at > options_.timeout; };
   while (queue_.empty() && !is_closed_ && !is_unwanted && !is_silent()) {
-    changed_.wait_for(lock, std::min(kGlance, options_.patience),
+    changed_.wait_for(lock, std::min(kPollPeriod, options_.timeout),
                       [this] { return !queue_.empty() || is_closed_; });
     if (images_ != seen) alive_at = HostTime::clock::now();
     seen = images_;
@@ -153,7 +153,7 @@ Expected<std::optional<Frame>> LiveRig::next() {
   take_stock();
   if (frame || is_closed_ || is_unwanted) return frame;
   return fail(ErrorCode::kIo, info_.uri,
-              fmt::format("no image has come for {:.1f} s", seconds(options_.patience)),
+              fmt::format("no image has come for {:.1f} s", seconds(options_.timeout)),
               "check the cable and that the camera is on a USB 3 port of its own");
 }
 

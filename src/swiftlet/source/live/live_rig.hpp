@@ -32,7 +32,7 @@ class LiveRig final : public FrameSource, public LiveSink {
     RigOptions rig;     ///< cameras, mounts and gates
     QueuePolicy queue;  ///< its speed does not matter here
     /// Silence of the cameras after which next() gives up: time to plug a cable in again.
-    Nanoseconds patience = std::chrono::seconds(10);
+    Nanoseconds timeout = std::chrono::seconds(10);
   };
   /// Nothing is connected yet.
   LiveRig(SourceInfo info, const Options& options);
@@ -52,13 +52,13 @@ class LiveRig final : public FrameSource, public LiveSink {
   /// No instrument will deliver again.
   void close();
 
-  /// Waits for the next frame. Errors: kIo if no image has come for `patience`.
+  /// Waits for the next frame. Errors: kIo if no image has come for `timeout`.
   [[nodiscard]] Expected<std::optional<Frame>> next() override;
   /// What is known before the first frame.
   [[nodiscard]] const SourceInfo& info() const override { return info_; }
   /// What was lost so far.
   [[nodiscard]] const FrameTally& tally() const override { return tally_; }
-  [[nodiscard]] const RigFacts* facts() const override { return &facts_; }
+  [[nodiscard]] const RigStatistics* statistics() const override { return &facts_; }
   /// Cameras, mounts and gates.
   [[nodiscard]] const RigOptions* rig() const override { return &options_.rig; }
   void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
@@ -74,7 +74,7 @@ class LiveRig final : public FrameSource, public LiveSink {
   const SourceInfo info_;
   const Options options_;
   FrameTally tally_;  // the mapper's, as are the next three
-  RigFacts facts_;
+  RigStatistics facts_;
   std::size_t delivered_ = 0;
   std::function<bool()> is_unwanted_;
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "swiftlet/source/live/live_keeper.hpp"
+#include "swiftlet/source/live/device_supervisor.hpp"
 #include "swiftlet/source/rig/mounts.hpp"
 
 namespace swiftlet {

@@ -26,7 +26,7 @@ inline constexpr std::string_view kRealsenseKind = "realsense:";
 }
 
 /// What a connected device tells of itself; empty where it does not.
-struct RealsenseFacts {
+struct DeviceInfo {
   std::string name;
   std::string serial;
   std::string firmware;
@@ -42,7 +42,7 @@ struct RealsenseFacts {
 struct RealsenseSystem {
   std::string sdk;             ///< its version, as in "2.53.1"
   bool can_know_t265 = false;  ///< SDK 2.53.1 is the last that does; 2.13 of npm is built without
-  std::vector<RealsenseFacts> devices;
+  std::vector<DeviceInfo> devices;
 };
 
 /// Errors: kUnsupported without the SDK, kIo with the SDK's words.

@@ -62,14 +62,14 @@ std::string version_text(int version) {
 
 }  // namespace
 
-RealsenseFacts facts_of(const rs2::device& device) {
-  RealsenseFacts facts{info_of(device, "Name"),
-                       info_of(device, "Serial Number"),
-                       info_of(device, "Firmware Version"),
-                       info_of(device, "Recommended Firmware Version"),
-                       info_of(device, "Usb Type Descriptor"),
-                       {},
-                       false};
+DeviceInfo facts_of(const rs2::device& device) {
+  DeviceInfo facts{info_of(device, "Name"),
+                   info_of(device, "Serial Number"),
+                   info_of(device, "Firmware Version"),
+                   info_of(device, "Recommended Firmware Version"),
+                   info_of(device, "Usb Type Descriptor"),
+                   {},
+                   false};
   for (const rs2::sensor& sensor : device.query_sensors()) {
     for (const rs2::stream_profile& profile : sensor.get_stream_profiles()) {
       facts.has_poses = facts.has_poses || profile.stream_type() == RS2_STREAM_POSE;

@@ -15,7 +15,7 @@ namespace swiftlet {
 /// A connected device, and what it said of itself when it was listed.
 struct RealsenseDevice {
   rs2::device device;
-  RealsenseFacts facts;
+  DeviceInfo facts;
 };
 
 /// The devices that there are now. Thread safety: list() by one thread at a time.
@@ -36,6 +36,6 @@ using RealsenseDevicesPtr = std::shared_ptr<RealsenseDevices>;
 [[nodiscard]] Expected<RealsenseDevicesPtr> connected_realsense();
 
 /// What a device tells of itself. Throws what the SDK throws.
-[[nodiscard]] RealsenseFacts facts_of(const rs2::device& device);
+[[nodiscard]] DeviceInfo facts_of(const rs2::device& device);
 
 }  // namespace swiftlet

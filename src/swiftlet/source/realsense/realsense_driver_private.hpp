@@ -13,7 +13,7 @@
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/frame/intrinsics.hpp"
-#include "swiftlet/source/live/live_keeper.hpp"
+#include "swiftlet/source/live/device_supervisor.hpp"
 
 // The RealSense SDK at sensor level: neither pipeline nor syncer, which drop frames and poses.
 // Version guards: global time since 2.22, options of the T265 since 2.25, unit per frame

@@ -87,9 +87,9 @@ Expected<std::unique_ptr<RealsenseRig>> RealsenseRig::start(RealsenseDevicesPtr 
     if (!socket) return forward_error(std::move(socket));
     rig->pose_socket_ = std::move(*socket);
   }
-  auto keeper = LiveKeeper::start(sink, rig->instruments(), request.keeper);
+  auto keeper = DeviceSupervisor::start(sink, rig->instruments(), request.keeper);
   if (!keeper) return forward_error(std::move(keeper));
-  rig->keeper_ = std::move(*keeper);
+  rig->supervisor_ = std::move(*keeper);
   rig->devices_->on_removed([raw = rig.get()](const RealsenseDevices::WasRemoved& was_removed) {
     raw->note_removed(was_removed);
   });
@@ -98,9 +98,9 @@ Expected<std::unique_ptr<RealsenseRig>> RealsenseRig::start(RealsenseDevicesPtr 
 
 RealsenseRig::~RealsenseRig() {
   devices_->on_removed({});
-  std::unique_ptr<LiveKeeper> keeper;  // its thread may wait for the lock
+  std::unique_ptr<DeviceSupervisor> keeper;  // its thread may wait for the lock
   const std::lock_guard lock(mutex_);
-  keeper.swap(keeper_);
+  keeper.swap(supervisor_);
 }
 
 std::vector<LiveInstrument> RealsenseRig::instruments() {
@@ -127,7 +127,7 @@ rs2::device RealsenseRig::wrapped(const RealsenseDevice& device, std::string_vie
 void RealsenseRig::note_removed(const RealsenseDevices::WasRemoved& was_removed) {
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < taken_.size(); ++i) {
-    if (keeper_ && taken_[i] && was_removed(taken_[i]->device)) keeper_->note_unplugged(i);
+    if (supervisor_ && taken_[i] && was_removed(taken_[i]->device)) supervisor_->note_unplugged(i);
   }
 }
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "swiftlet/source/frame_source.hpp"
-#include "swiftlet/source/live/live_keeper.hpp"
+#include "swiftlet/source/live/device_supervisor.hpp"
 #include "swiftlet/source/live/pose_socket.hpp"
 #include "swiftlet/source/realsense/realsense_devices_private.hpp"
 #include "swiftlet/source/realsense/realsense_driver_private.hpp"
@@ -28,8 +28,8 @@ struct RealsenseRequest {
   RealsenseProfile profile;
   std::optional<PoseAddress> poses;  ///< absent: of a T265
   std::filesystem::path pose_key;    ///< see PoseAddress
-  Nanoseconds patience = std::chrono::seconds(10);
-  LiveKeeper::Options keeper{};
+  Nanoseconds timeout = std::chrono::seconds(10);
+  DeviceSupervisor::Options keeper{};
   std::string uri;
 };
 /// Errors: kUsage, and those of the rig file.
@@ -70,7 +70,7 @@ class RealsenseRig {
   LiveStreamPtr pose_socket_;
   std::mutex mutex_;                                   // of the next line
   std::vector<std::optional<RealsenseDevice>> taken_;  // by instrument, as last started
-  std::unique_ptr<LiveKeeper> keeper_;                 // last: its thread uses the rest
+  std::unique_ptr<DeviceSupervisor> supervisor_;       // last: its thread uses the rest
 };
 
 /// The source `realsense:` on whatever devices there are. Errors: those of

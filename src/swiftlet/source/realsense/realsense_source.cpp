@@ -62,7 +62,7 @@ bool apply(std::string_view key, std::string_view value, RealsenseRequest& reque
   const auto number = number_within(value, 0.0, 1000.0);
   if (key == "laser_mw" && number) request.profile.laser_mw = static_cast<float>(*number);
   if (key == "preset" && number) request.profile.visual_preset = static_cast<float>(*number);
-  if (key == "wait_s" && number) request.patience = Nanoseconds(std::llround(*number * 1e9));
+  if (key == "wait_s" && number) request.timeout = Nanoseconds(std::llround(*number * 1e9));
   if (key == "laser_mw" || key == "preset" || key == "wait_s") return number.has_value();
   return apply_rig_option(key, value, request.rig.rig);
 }
@@ -97,7 +97,7 @@ class RealsenseSource final : public FrameSource {
   Expected<std::optional<Frame>> next() override { return rig_.next(); }
   const SourceInfo& info() const override { return rig_.info(); }
   const FrameTally& tally() const override { return rig_.tally(); }
-  const RigFacts* facts() const override { return rig_.facts(); }
+  const RigStatistics* statistics() const override { return rig_.statistics(); }
   const RigOptions* rig() const override { return rig_.rig(); }
   void stop_when(const std::function<bool()>& is_unwanted) override { rig_.stop_when(is_unwanted); }
   std::vector<RigEvent> take_events() override { return rig_.take_events(); }
@@ -142,7 +142,7 @@ Expected<FrameSourcePtr> open_realsense(RealsenseDevicesPtr devices,
                                         const RealsenseRequest& request) {
   auto infos = survey_realsense(*devices, request);
   if (!infos) return forward_error(std::move(infos));
-  LiveRig::Options options{.rig = request.rig.rig, .queue = {}, .patience = request.patience};
+  LiveRig::Options options{.rig = request.rig.rig, .queue = {}, .timeout = request.timeout};
   std::vector<RigCamera>& cameras = options.rig.cameras;
   for (std::size_t i = 0; i < cameras.size() && cameras.size() > 1; ++i) {
     if (cameras[i].baseline_m == 0.0) cameras[i].baseline_m = (*infos)[i].baseline_m;

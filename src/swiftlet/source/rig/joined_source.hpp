@@ -29,7 +29,7 @@ class JoinedSource final : public FrameSource {
   [[nodiscard]] Expected<std::optional<Frame>> next() override;
   [[nodiscard]] const SourceInfo& info() const override { return info_; }
   [[nodiscard]] const FrameTally& tally() const override { return tally_; }
-  [[nodiscard]] const RigFacts* facts() const override { return &rig_.facts(); }
+  [[nodiscard]] const RigStatistics* statistics() const override { return &rig_.statistics(); }
   [[nodiscard]] const RigOptions* rig() const override { return &rig_.options(); }
   void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
   [[nodiscard]] std::vector<RigEvent> take_events() override;

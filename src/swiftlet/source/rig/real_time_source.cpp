@@ -22,7 +22,7 @@ class RealTimeSource final : public FrameSource {
  public:
   RealTimeSource(FrameSourcePtr source, const QueuePolicy& policy)
       : source_(std::move(source)), info_(source_->info()), policy_(policy) {
-    if (source_->facts() != nullptr) facts_ = source_facts_ = *source_->facts();
+    if (source_->statistics() != nullptr) facts_ = source_facts_ = *source_->statistics();
     source_->stop_when([this] {  // asked by the player
       const std::lock_guard lock(mutex_);
       ask_source();
@@ -45,8 +45,8 @@ class RealTimeSource final : public FrameSource {
   Expected<std::optional<Frame>> next() override {
     std::unique_lock lock(mutex_);
     bool is_unwanted = false;
-    while (!is_unwanted &&
-           !changed_.wait_for(lock, kGlance, [this] { return !queue_.empty() || is_played_; })) {
+    while (!is_unwanted && !changed_.wait_for(lock, kPollPeriod,
+                                              [this] { return !queue_.empty() || is_played_; })) {
       take_stock();
       lock.unlock();  // it is somebody else's function
       is_unwanted = is_unwanted_ && is_unwanted_();
@@ -65,7 +65,7 @@ class RealTimeSource final : public FrameSource {
 
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return tally_; }
-  const RigFacts* facts() const override { return facts_ ? &*facts_ : nullptr; }
+  const RigStatistics* statistics() const override { return facts_ ? &*facts_ : nullptr; }
   const RigOptions* rig() const override { return source_->rig(); }  // never changes
   void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
   std::vector<RigEvent> take_events() override {
@@ -76,7 +76,7 @@ class RealTimeSource final : public FrameSource {
  private:
   using Clock = HostTime::clock;
   static constexpr Nanoseconds kLongestWait = std::chrono::minutes(1);
-  static constexpr Nanoseconds kGlance = std::chrono::milliseconds(100);  // at whether to go on
+  static constexpr Nanoseconds kPollPeriod = std::chrono::milliseconds(100);  // at whether to go on
 
   /// REQUIRES: the lock.
   void take_stock() {
@@ -89,7 +89,7 @@ class RealTimeSource final : public FrameSource {
   /// By the player. REQUIRES: the lock.
   void ask_source() {
     source_tally_ = source_->tally();
-    if (source_facts_) source_facts_ = *source_->facts();
+    if (source_facts_) source_facts_ = *source_->statistics();
     for (RigEvent& event : source_->take_events()) events_.add(std::move(event));
   }
 
@@ -140,7 +140,7 @@ class RealTimeSource final : public FrameSource {
   const SourceInfo info_;
   const QueuePolicy policy_;
   FrameTally tally_;  // the reader's, as are these
-  std::optional<RigFacts> facts_;
+  std::optional<RigStatistics> facts_;
   std::size_t delivered_ = 0;
   std::function<bool()> is_unwanted_;
 
@@ -148,7 +148,7 @@ class RealTimeSource final : public FrameSource {
   std::condition_variable changed_;
   std::deque<Frame> queue_;
   FrameTally source_tally_;
-  std::optional<RigFacts> source_facts_;  // nullopt: it is no rig
+  std::optional<RigStatistics> source_facts_;  // nullopt: it is no rig
   RigEventList events_;
   std::size_t overloaded_ = 0;
   std::optional<Error> fault_;

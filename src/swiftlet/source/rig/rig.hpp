@@ -14,7 +14,7 @@
 #include "swiftlet/frame/trusted_poses.hpp"
 #include "swiftlet/source/frame_source.hpp"
 #include "swiftlet/source/rig/body_box.hpp"
-#include "swiftlet/source/rig_facts.hpp"
+#include "swiftlet/source/rig_statistics.hpp"
 
 namespace swiftlet {
 
@@ -104,7 +104,7 @@ class Rig {
   /// What was lost so far.
   [[nodiscard]] const FrameTally& tally() const { return tally_; }
   /// What the streams were like so far.
-  [[nodiscard]] const RigFacts& facts() const { return facts_; }
+  [[nodiscard]] const RigStatistics& statistics() const { return facts_; }
   /// Whose clock the poses are stamped with.
   [[nodiscard]] ClockDomain pose_clock() const { return poses_.clock(); }
   /// Where the body was, as far as poses that are trusted tell.
@@ -144,7 +144,7 @@ class Rig {
   Nanoseconds out_offset_{0};        // of frames' stamps against images': a set clock is taken out
   bool is_out_offset_known_ = true;
   FrameTally tally_;
-  RigFacts facts_;
+  RigStatistics facts_;
   bool is_stale_ = false;
   bool is_finished_ = false;
 };

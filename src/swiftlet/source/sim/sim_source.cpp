@@ -56,7 +56,7 @@ class SimSource final : public FrameSource {
   }
   const SourceInfo& info() const override { return info_; }
   const FrameTally& tally() const override { return rig_.tally(); }
-  const RigFacts* facts() const override { return &rig_.facts(); }
+  const RigStatistics* statistics() const override { return &rig_.statistics(); }
   const RigOptions* rig() const override { return &rig_.options(); }
   void stop_when(const std::function<bool()>& is_unwanted) override { is_unwanted_ = is_unwanted; }
 

@@ -74,7 +74,7 @@ class SteeredRig {
   [[nodiscard]] sim::TrackerDrift drift() const { return drift_; }
 
   [[nodiscard]] const FrameTally& tally() const { return rig_.tally(); }
-  [[nodiscard]] const RigFacts& facts() const { return rig_.facts(); }
+  [[nodiscard]] const RigStatistics& statistics() const { return rig_.statistics(); }
   [[nodiscard]] const RigOptions& rig() const { return rig_.options(); }
   [[nodiscard]] const PinholeIntrinsics& intrinsics() const { return camera_.intrinsics(); }
 

@@ -56,7 +56,7 @@ HttpSession::HttpSession(boost::asio::ip::tcp::socket&& socket, const HttpHost& 
   stream_.socket().set_option(boost::asio::socket_base::send_buffer_size(kSendBuffer_bytes), error);
 }
 
-void HttpSession::read(std::chrono::milliseconds patience) {
+void HttpSession::read(std::chrono::milliseconds timeout) {
   // Between two requests, too: whoever only waits must not hold the place of somebody who asks.
   is_known_ = false;
   download_.reset();
@@ -66,7 +66,7 @@ void HttpSession::read(std::chrono::milliseconds patience) {
   parser_.emplace();
   parser_->header_limit(kMaxHeader_bytes);
   parser_->body_limit(0);
-  stream_.expires_after(patience);  // for the whole of it, however slowly it drips in
+  stream_.expires_after(timeout);  // for the whole of it, however slowly it drips in
   http::async_read(stream_, inbox_, *parser_,
                    [self = shared_from_this()](beast::error_code error, std::size_t) {
                      // Whatever is no request within the limits gets no answer.
@@ -168,7 +168,7 @@ void HttpSession::send(const HttpAnswer& answer, SharedBytes body) {
 /// Piece by piece: over a slow link the whole takes long, and only a client that takes nothing at
 /// all is given up.
 void HttpSession::write_on(const std::shared_ptr<Sending>& sending) {
-  stream_.expires_after(is_known_ ? kStall : host_.patience);
+  stream_.expires_after(is_known_ ? kStall : host_.timeout);
   http::async_write_some(
       stream_, sending->serializer,
       [self = shared_from_this(), sending](beast::error_code error, std::size_t) {

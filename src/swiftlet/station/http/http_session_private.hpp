@@ -29,7 +29,7 @@ struct HttpHost {
   const Places& answers;    ///< for who has
   const Places& downloads;  ///< of the map file, among them
   const Places& sockets;
-  std::chrono::milliseconds patience;  ///< with a request
+  std::chrono::milliseconds timeout;  ///< with a request
   /// A protocol for one of the subprotocols offered, and the one that was chosen; nullopt if none
   /// of them is spoken here.
   struct Chosen {
@@ -48,7 +48,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(boost::asio::ip::tcp::socket&& socket, const HttpHost& host);
   /// Waits for a request.
-  void read(std::chrono::milliseconds patience);
+  void read(std::chrono::milliseconds timeout);
 
  private:
   struct Sending;

@@ -56,7 +56,7 @@ class Server final : public Station {
               answers_,
               downloads_,
               sockets_,
-              options_.patience,
+              options_.timeout,
               [this](std::string_view offered) { return choose_protocol(offered, model_); },
               [this](auto session) { clients_.push_back(std::move(session)); },
               [this](auto ready) { download_.ask(Clock::now(), std::move(ready)); }} {}
@@ -100,7 +100,7 @@ class Server final : public Station {
     acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later();
-      std::make_shared<HttpSession>(std::move(socket), host_)->read(options_.patience);
+      std::make_shared<HttpSession>(std::move(socket), host_)->read(options_.timeout);
       if (waiting_.sent_away() > sent_away_) {
         sent_away_ = waiting_.sent_away();
         door_.note("a connection", "more wait and ask nothing than there is room for",

@@ -35,7 +35,8 @@ void ClientQueue::start_again(const MapMirror& mirror) {
   order_.clear();
   ledger_.clear();
   clears_next_ = true;
-  mirror.for_each_known_block([&](const BlockIndex& index, const VoxelBlock&) { dirty_.insert(index); });
+  mirror.for_each_known_block(
+      [&](const BlockIndex& index, const VoxelBlock&) { dirty_.insert(index); });
 }
 
 void ClientQueue::mark(const std::vector<BlockIndex>& changed, const MapMirror& mirror) {

@@ -49,8 +49,8 @@ Expected<std::unique_ptr<octomap::OcTree>> build_tree(const SavedMap& map,
   tree->setClampingThresMin(1e-4);  // wider than our bytes, so that it clamps nothing
   tree->setClampingThresMax(1.0 - 1e-4);
   bool fits = true;
-  auto passed =
-      for_each_known_voxel(map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
+  auto passed = for_each_known_voxel(
+      map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
         fits = fits && has_key(v);
         if (!fits) return;
         tree->setNodeValue(key_of(v), octomap_logodds(cell, state, per_step), true);

@@ -32,8 +32,8 @@ Status export_pcd(const SavedMap& map, const std::filesystem::path& out,
                   "VERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
                   "WIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
                   points, shift));
-  auto passed =
-      for_each_known_voxel(map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
+  auto passed = for_each_known_voxel(
+      map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
         if (state != Occupancy::kOccupied) return;
         const Eigen::Vector3f p = (centre_of(v, map.voxel_m()) - origin_m).cast<float>();
         const auto intensity = static_cast<float>(cell);

@@ -54,8 +54,8 @@ Status export_ply(const SavedMap& map, const std::filesystem::path& out,
   file->write(header(summary->cells.occupied, map, is_float ? "float" : "double"));
   const VoxelBox box = summary->bounds.value_or(VoxelBox{});
   const double height = std::max(1, box.last.z - box.first.z);
-  auto passed =
-      for_each_known_voxel(map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
+  auto passed = for_each_known_voxel(
+      map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
         if (state != Occupancy::kOccupied) return;
         for (const double c : centre_of(v, map.voxel_m())) {
           is_float ? file->write_little_endian(static_cast<float>(c))

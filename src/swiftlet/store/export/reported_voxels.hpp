@@ -31,8 +31,8 @@ class BlockProgress {
   const ExportProgress& progress_;
 };
 
-/// Calls visit(VoxelIndex, QuantizedLogOdds, Occupancy) for every free and occupied cell of a map file,
-/// block by block.
+/// Calls visit(VoxelIndex, QuantizedLogOdds, Occupancy) for every free and occupied cell of a map
+/// file, block by block.
 template <class Visit>
 [[nodiscard]] Status for_each_known_voxel(const SavedMap& map, const ExportProgress& progress,
                                           Visit&& visit) {

@@ -16,7 +16,7 @@
 namespace swiftlet {
 
 /// What has come from one instrument, whether it was used or not.
-struct StreamFacts {
+struct StreamStatistics {
   std::size_t samples = 0;
   std::optional<Stamp> first, last;  ///< the earliest and the latest
   Nanoseconds longest_gap{0};        ///< between neighbours in order, up to an hour
@@ -33,7 +33,7 @@ struct StreamFacts {
   Nanoseconds passed_{0};  // between neighbours, but where the clock was set
 };
 
-struct CameraFacts : StreamFacts {
+struct CameraStatistics : StreamStatistics {
   std::optional<PinholeIntrinsics> intrinsics{};  ///< of the newest image
   float unit_m = 0.0F;                            ///< of its raw depth
   std::size_t intrinsics_changes = 0;             ///< times they were others than before
@@ -42,7 +42,7 @@ struct CameraFacts : StreamFacts {
   void note(const DepthFrame& depth);
 };
 
-struct PoseFacts : StreamFacts {
+struct PoseFacts : StreamStatistics {
   std::array<std::size_t, 4> confidence{};  ///< samples by confidence, 0 failed .. 3 high
   std::size_t broken = 0;                   ///< not finite, or no unit quaternion
   Eigen::Vector3d low_m{0, 0, 0};           ///< corners of where the body has been [world]
@@ -53,8 +53,8 @@ struct PoseFacts : StreamFacts {
 };
 
 /// What a rig has received so far: what `swiftlet doctor` judges. Cost: a few comparisons a sample.
-struct RigFacts {
-  std::vector<CameraFacts> cameras{};  ///< by camera of the rig
+struct RigStatistics {
+  std::vector<CameraStatistics> cameras{};  ///< by camera of the rig
   PoseFacts poses{};
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/condition/depth_step.hpp"
-#include "swiftlet/condition/neighbour_kernels.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
+#include "swiftlet/preprocess/neighbour_kernels.hpp"
 
 namespace swiftlet {
 namespace {
@@ -12,9 +12,9 @@ namespace {
 /// pixels has five to bear each other out.
 class LonePixels final : public DepthStep {
  public:
-  explicit LonePixels(const ConditionOptions&) {}
+  explicit LonePixels(const PreprocessOptions&) {}
 
-  void apply(ConditionedDepth& depth) override { neighbours_.keep_supported(depth); }
+  void apply(PreprocessedDepth& depth) override { neighbours_.keep_supported(depth); }
 
  private:
   Neighbours neighbours_;
@@ -22,7 +22,7 @@ class LonePixels final : public DepthStep {
 
 }  // namespace
 
-std::unique_ptr<DepthStep> make_lone_pixels(const ConditionOptions& options) {
+std::unique_ptr<DepthStep> make_lone_pixels(const PreprocessOptions& options) {
   return std::make_unique<LonePixels>(options);
 }
 

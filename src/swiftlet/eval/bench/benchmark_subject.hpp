@@ -14,11 +14,11 @@ namespace swiftlet::eval {
 
 /// A way from raw depth images and poses to a map, as `swiftlet bench` measures and `swiftlet
 /// score` judges it.
-class Contender {
+class BenchmarkSubject {
  public:
-  virtual ~Contender() = default;
+  virtual ~BenchmarkSubject() = default;
   /// Fuses one frame and tells the time it took: what is done to the depth image before the map is
-  /// asked counts as Stage::kCondition. nullopt if it refused the frame.
+  /// asked counts as Stage::kPreprocess. nullopt if it refused the frame.
   virtual std::optional<StageTimes> fuse(const Frame& frame) = 0;
   /// Memory of the map alone, without scratch; 0 if there is none.
   [[nodiscard]] virtual std::size_t map_bytes() const = 0;
@@ -28,15 +28,15 @@ class Contender {
 
 /// Ours: the whole mapper. `keeps_all`: what leaves the window is kept, too, and belongs to the
 /// claims. Errors: those of Mapper::create().
-[[nodiscard]] Expected<std::unique_ptr<Contender>> make_mapper_contender(const MapperConfig& config,
-                                                                         bool keeps_all = false);
+[[nodiscard]] Expected<std::unique_ptr<BenchmarkSubject>> make_mapper_subject(
+    const MapperConfig& config, bool keeps_all = false);
 
 /// OctoMap's insertPointCloud(), the conversion to its point cloud included; null if Swiftlet was
 /// built without OctoMap. `is_discretised`: one ray a cell, OctoMap's own short cut.
-[[nodiscard]] std::unique_ptr<Contender> make_octomap_contender(const MapperConfig& config,
-                                                                bool is_discretised);
+[[nodiscard]] std::unique_ptr<BenchmarkSubject> make_octomap_subject(const MapperConfig& config,
+                                                                     bool is_discretised);
 
-/// No map: only the points [m, world] of a frame, all of it in Stage::kCondition.
-[[nodiscard]] std::unique_ptr<Contender> make_points_contender(const MapperConfig& config);
+/// No map: only the points [m, world] of a frame, all of it in Stage::kPreprocess.
+[[nodiscard]] std::unique_ptr<BenchmarkSubject> make_points_subject(const MapperConfig& config);
 
 }  // namespace swiftlet::eval

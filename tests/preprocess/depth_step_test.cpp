@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/condition/depth_step.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,8 +27,8 @@ Image<std::uint16_t> random_image(Random& random) {
   return image;
 }
 
-ConditionOptions random_options(Random& random) {
-  ConditionOptions options;
+PreprocessOptions random_options(Random& random) {
+  PreprocessOptions options;
   options.min_range_m = random.real(0.0, 2.0);
   options.max_range_m = random.real(3.0, 60.0);
   options.downsample = random.integer(1, 11);
@@ -37,13 +37,13 @@ ConditionOptions random_options(Random& random) {
   return options;
 }
 
-ConditionedDepth in_mm(const Image<std::uint16_t>& image) {
-  ConditionedDepth depth;
+PreprocessedDepth in_mm(const Image<std::uint16_t>& image) {
+  PreprocessedDepth depth;
   depth.raw = image;
   const double width = image.width(), height = image.height();
-  depth.lens = PinholeIntrinsics::create(image.width(), image.height(), 40.0, 50.0, 0.4 * width,
-                                         0.6 * height)
-                   .value();
+  depth.intrinsics = PinholeIntrinsics::create(image.width(), image.height(), 40.0, 50.0,
+                                               0.4 * width, 0.6 * height)
+                         .value();
   return depth;
 }
 
@@ -56,7 +56,7 @@ TEST_P(EveryDepthStep, never_invents_a_reading) {
   Random random;
   for (int trial = 0; trial < 60; ++trial) {
     const Image<std::uint16_t> image = random_image(random);
-    ConditionedDepth depth = in_mm(image);
+    PreprocessedDepth depth = in_mm(image);
     GetParam().make(random_options(random))->apply(depth);
     for (int v = 0; v < depth.raw.height(); ++v) {
       for (int u = 0; u < depth.raw.width(); ++u) {
@@ -71,19 +71,19 @@ TEST_P(EveryDepthStep, never_invents_a_reading) {
 }
 
 TEST_P(EveryDepthStep, turns_an_empty_image_into_an_empty_image) {
-  ConditionedDepth depth = in_mm(Image<std::uint16_t>(33, 17));
-  GetParam().make(ConditionOptions{})->apply(depth);
+  PreprocessedDepth depth = in_mm(Image<std::uint16_t>(33, 17));
+  GetParam().make(PreprocessOptions{})->apply(depth);
   for (const std::uint16_t d : depth.raw.pixels()) ASSERT_EQ(d, 0);
 }
 
 TEST_P(EveryDepthStep, gives_the_same_result_with_used_buffers) {
   Random random;
-  const ConditionOptions options = random_options(random);
+  const PreprocessOptions options = random_options(random);
   const auto used = GetParam().make(options);
   for (int trial = 0; trial < 20; ++trial) {
     const Image<std::uint16_t> image = random_image(random);
-    ConditionedDepth a = in_mm(image);
-    ConditionedDepth b = a;
+    PreprocessedDepth a = in_mm(image);
+    PreprocessedDepth b = a;
     used->apply(a);
     GetParam().make(options)->apply(b);
     ASSERT_TRUE(std::ranges::equal(a.raw.pixels(), b.raw.pixels())) << random.repeat();
@@ -95,20 +95,20 @@ INSTANTIATE_TEST_SUITE_P(Registered, EveryDepthStep,
                          [](const auto& param_info) { return std::string(param_info.param.name); });
 
 TEST(RangeGate, keeps_readings_on_both_limits_and_drops_the_next_ones) {
-  ConditionOptions options;
+  PreprocessOptions options;
   options.min_range_m = 0.5;
   options.max_range_m = 2.0;
   Image<std::uint16_t> image(5, 1);
   std::ranges::copy(std::array<std::uint16_t, 5>{499, 500, 2000, 2001, 65535},
                     image.pixels().begin());
-  ConditionedDepth depth = in_mm(image);
+  PreprocessedDepth depth = in_mm(image);
   find_registered(depth_steps(), "range_gate", "depth step")->make(options)->apply(depth);
   EXPECT_EQ(std::vector<std::uint16_t>(depth.raw.pixels().begin(), depth.raw.pixels().end()),
             (std::vector<std::uint16_t>{0, 500, 2000, 0, 0}));
 }
 
 /// Whether two readings belong to one surface, from the definition.
-bool agree(int a, int z, const ConditionedDepth& depth) {
+bool agree(int a, int z, const PreprocessedDepth& depth) {
   const auto d = static_cast<float>(z);
   const float square = 3.0F * 1.41421356F * depth.sigma_per_z2 * depth.unit_m;
   const float most = std::min(1300.0F, d - 1.0F);
@@ -133,8 +133,8 @@ Image<std::uint16_t> noisy_steps(Random& random) {
 TEST(NeighbourSteps, do_what_a_loop_over_all_neighbours_does) {
   test::for_each_seed(30, [](Random& random) {
     const Image<std::uint16_t> image = noisy_steps(random);
-    ConditionedDepth lone = in_mm(image);
-    ConditionedDepth smooth = lone;
+    PreprocessedDepth lone = in_mm(image);
+    PreprocessedDepth smooth = lone;
     find_registered(depth_steps(), "lone_pixels", "step")->make({})->apply(lone);
     find_registered(depth_steps(), "smooth", "step")->make({})->apply(smooth);
     EXPECT_LT(smooth.noise_left, 1.0F);
@@ -163,7 +163,7 @@ TEST(LonePixels, drops_what_floats_between_fore_and_background_and_keeps_a_rod_o
   for (int v = 0; v < 20; ++v) image.at(10, v) = image.at(11, v) = 1000;
   image.at(9, 5) = 1700;  // between the rod and the wall
   image.at(4, 4) = 500;   // mismatch
-  ConditionedDepth depth = in_mm(image);
+  PreprocessedDepth depth = in_mm(image);
   find_registered(depth_steps(), "lone_pixels", "step")->make({})->apply(depth);
   EXPECT_EQ(depth.raw.at(9, 5), 0);
   EXPECT_EQ(depth.raw.at(4, 4), 0);
@@ -175,7 +175,7 @@ TEST(Smooth, leaves_a_third_of_the_noise_of_a_wall_and_its_depth) {
   Image<std::uint16_t> image(200, 100);
   for (std::uint16_t& d : image.pixels())
     d = static_cast<std::uint16_t>(std::lround(4000.0 + random.gaussian(64.0)));
-  ConditionedDepth depth = in_mm(image);
+  PreprocessedDepth depth = in_mm(image);
   find_registered(depth_steps(), "smooth", "step")->make({})->apply(depth);
   double sum = 0.0, squares = 0.0;
   for (const std::uint16_t d : depth.raw.pixels()) {
@@ -191,15 +191,15 @@ TEST(Smooth, leaves_a_third_of_the_noise_of_a_wall_and_its_depth) {
 TEST(Distortion, subtracts_the_polynomial_of_the_point_that_was_read) {
   test::for_each_seed(40, [](Random& random) {
     const Image<std::uint16_t> image = random_image(random);
-    const ConditionOptions options = random_options(random);
+    const PreprocessOptions options = random_options(random);
     const DepthDistortion& p = options.distortion;
-    ConditionedDepth depth = in_mm(image);
+    PreprocessedDepth depth = in_mm(image);
     depth.unit_m = random.chance(0.5) ? 0.001F : 0.0001F;
     find_registered(depth_steps(), "distortion", "step")->make(options)->apply(depth);
     for (int v = 0; v < image.height(); ++v) {
       for (int u = 0; u < image.width(); ++u) {
         const Eigen::Vector3d q =
-            depth.lens->back_project(u, v, double{depth.unit_m} * image.at(u, v));
+            depth.intrinsics->back_project(u, v, double{depth.unit_m} * image.at(u, v));
         const double z_m = q.z() - (p.x2_per_m * q.x() * q.x() + p.y2_per_m * q.y() * q.y() +
                                     p.x1 * q.x() + p.y1 * q.y() + p.offset_m);
         const double units = z_m / double{depth.unit_m};
@@ -216,7 +216,7 @@ TEST(Distortion, subtracts_the_polynomial_of_the_point_that_was_read) {
 TEST(Distortion, without_numbers_leaves_the_image_alone_and_asks_for_no_lens) {
   Random random;
   const Image<std::uint16_t> image = random_image(random);
-  ConditionedDepth depth;
+  PreprocessedDepth depth;
   depth.raw = image;
   find_registered(depth_steps(), "distortion", "step")->make({})->apply(depth);
   EXPECT_TRUE(std::ranges::equal(depth.raw.pixels(), image.pixels()));
@@ -227,10 +227,10 @@ TEST(NearDownsample, keeps_the_smallest_valid_reading_of_every_block_with_its_su
   Random random;
   for (int trial = 0; trial < 60; ++trial) {
     const Image<std::uint16_t> image = random_image(random);
-    ConditionOptions options;
+    PreprocessOptions options;
     options.downsample = random.integer(2, 11);
     const int n = options.downsample;
-    ConditionedDepth depth = in_mm(image);
+    PreprocessedDepth depth = in_mm(image);
     find_registered(depth_steps(), "near_downsample", "depth step")->make(options)->apply(depth);
     ASSERT_EQ(depth.raw.width(), (image.width() + n - 1) / n);
     ASSERT_EQ(depth.raw.height(), (image.height() + n - 1) / n);

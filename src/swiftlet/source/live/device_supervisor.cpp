@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/live/live_keeper.hpp"
+#include "swiftlet/source/live/device_supervisor.hpp"
 
 #include <fmt/format.h>
 
@@ -13,23 +13,23 @@
 
 namespace swiftlet {
 
-LiveKeeper::LiveKeeper(LiveSink& sink, std::vector<LiveInstrument> instruments,
-                       const Options& options)
+DeviceSupervisor::DeviceSupervisor(LiveSink& sink, std::vector<LiveInstrument> instruments,
+                                   const Options& options)
     : sink_(sink), options_(options), unplugged_(instruments.size(), false) {
   for (LiveInstrument& instrument : instruments) kept_.push_back({std::move(instrument)});
 }
 
-Expected<std::unique_ptr<LiveKeeper>> LiveKeeper::start(LiveSink& sink,
-                                                        std::vector<LiveInstrument> instruments,
-                                                        const Options& options) {
-  std::unique_ptr<LiveKeeper> keeper(new LiveKeeper(sink, std::move(instruments), options));
+Expected<std::unique_ptr<DeviceSupervisor>> DeviceSupervisor::start(
+    LiveSink& sink, std::vector<LiveInstrument> instruments, const Options& options) {
+  std::unique_ptr<DeviceSupervisor> keeper(
+      new DeviceSupervisor(sink, std::move(instruments), options));
   auto thread = start_thread("live rig", [&own = *keeper] { own.keep(); });
   if (!thread) return forward_error(std::move(thread));
   keeper->thread_ = std::move(*thread);
   return keeper;
 }
 
-LiveKeeper::~LiveKeeper() {
+DeviceSupervisor::~DeviceSupervisor() {
   {
     const std::lock_guard lock(mutex_);
     is_stopped_ = true;
@@ -38,7 +38,7 @@ LiveKeeper::~LiveKeeper() {
   if (thread_.joinable()) thread_.join();
 }
 
-void LiveKeeper::note_unplugged(std::size_t instrument) {
+void DeviceSupervisor::note_unplugged(std::size_t instrument) {
   {
     const std::lock_guard lock(mutex_);
     SWIFTLET_REQUIRE(instrument < unplugged_.size(), "the keeper has no such instrument");
@@ -47,7 +47,7 @@ void LiveKeeper::note_unplugged(std::size_t instrument) {
   changed_.notify_all();
 }
 
-void LiveKeeper::keep() {
+void DeviceSupervisor::keep() {
   std::unique_lock lock(mutex_);
   while (!is_stopped_) {
     std::vector<bool> unplugged(unplugged_.size(), false);
@@ -55,17 +55,17 @@ void LiveKeeper::keep() {
     lock.unlock();  // a driver may call back while it starts and stops
     for (std::size_t i = 0; i < kept_.size(); ++i) look_after(kept_[i], unplugged[i]);
     lock.lock();
-    changed_.wait_for(lock, options_.glance, [this] {
+    changed_.wait_for(lock, options_.poll_period, [this] {
       return is_stopped_ || std::ranges::find(unplugged_, true) != unplugged_.end();
     });
   }
 }
 
-void LiveKeeper::tell(const Kept& kept, RigEventKind kind, std::string what) {
+void DeviceSupervisor::tell(const Kept& kept, RigEventKind kind, std::string what) {
   sink_.note({kind, kept.instrument.name, std::move(what)});
 }
 
-void LiveKeeper::look_after(Kept& kept, bool is_unplugged) {
+void DeviceSupervisor::look_after(Kept& kept, bool is_unplugged) {
   if (is_unplugged && kept.stream != nullptr) {
     kept.stream.reset();
     tell(kept, RigEventKind::kUnplugged, "plug it in again: the flight goes on");
@@ -74,7 +74,7 @@ void LiveKeeper::look_after(Kept& kept, bool is_unplugged) {
   if (kept.stream == nullptr) connect(kept);
 }
 
-void LiveKeeper::connect(Kept& kept) {
+void DeviceSupervisor::connect(Kept& kept) {
   auto stream = kept.instrument.connect();
   if (!stream) {
     std::string complaint = stream.error().text();
@@ -89,7 +89,7 @@ void LiveKeeper::connect(Kept& kept) {
   tell(kept, has_run ? RigEventKind::kRestarted : RigEventKind::kStarted);
 }
 
-void LiveKeeper::watch(Kept& kept) {
+void DeviceSupervisor::watch(Kept& kept) {
   const auto last = kept.instrument.last_sample();
   const bool has_begun = last && *last >= kept.started;
   const auto silence = HostTime::clock::now() - (has_begun ? *last : kept.started);

@@ -39,19 +39,19 @@ struct LiveInstrument {
 /// unplugged or says nothing any more, and tells the sink of all that as events.
 ///
 /// Thread safety: note_unplugged() from any thread. The destructor stops the instruments.
-class LiveKeeper {
+class DeviceSupervisor {
  public:
   struct Options {
-    Nanoseconds glance = std::chrono::milliseconds(500);  ///< between two looks
-    Nanoseconds first_sample = std::chrono::seconds(5);   ///< a T265 takes two to start
+    Nanoseconds poll_period = std::chrono::milliseconds(500);  ///< between two looks
+    Nanoseconds first_sample = std::chrono::seconds(5);        ///< a T265 takes two to start
     Nanoseconds stalled_after = std::chrono::seconds(1);
   };
   /// Errors: kOutOfMemory if the system starts no thread. REQUIRES: the sink outlives the keeper.
-  [[nodiscard]] static Expected<std::unique_ptr<LiveKeeper>> start(
+  [[nodiscard]] static Expected<std::unique_ptr<DeviceSupervisor>> start(
       LiveSink& sink, std::vector<LiveInstrument> instruments, const Options& options);
-  LiveKeeper(const LiveKeeper&) = delete;
-  LiveKeeper& operator=(const LiveKeeper&) = delete;
-  ~LiveKeeper();
+  DeviceSupervisor(const DeviceSupervisor&) = delete;
+  DeviceSupervisor& operator=(const DeviceSupervisor&) = delete;
+  ~DeviceSupervisor();
 
   /// An instrument is gone; by its place in the list.
   void note_unplugged(std::size_t instrument);
@@ -65,7 +65,7 @@ class LiveKeeper {
     bool has_run = false;
     std::string complaint{};  // the last reason why it did not start, told once
   };
-  LiveKeeper(LiveSink& sink, std::vector<LiveInstrument> instruments, const Options& options);
+  DeviceSupervisor(LiveSink& sink, std::vector<LiveInstrument> instruments, const Options& options);
   void keep();
   void look_after(Kept& kept, bool is_unplugged);
   void connect(Kept& kept);

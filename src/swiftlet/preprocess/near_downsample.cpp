@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "swiftlet/base/narrow.hpp"
-#include "swiftlet/condition/depth_step.hpp"
-#include "swiftlet/condition/near_kernels.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
+#include "swiftlet/preprocess/near_kernels.hpp"
 
 namespace swiftlet {
 namespace {
@@ -35,9 +35,9 @@ struct Columns {
 /// the right and lower edge count too.
 class NearDownsample final : public DepthStep {
  public:
-  explicit NearDownsample(const ConditionOptions& o) : ratio_(o.downsample) {}
+  explicit NearDownsample(const PreprocessOptions& o) : ratio_(o.downsample) {}
 
-  void apply(ConditionedDepth& depth) override {
+  void apply(PreprocessedDepth& depth) override {
     SWIFTLET_REQUIRE(depth.ratio == 1, "the image is reduced once");
     if (ratio_ <= 1) return;
     const auto blocks = [this](int pixels) { return (pixels + ratio_ - 1) / ratio_; };
@@ -104,7 +104,7 @@ class NearDownsample final : public DepthStep {
 
 }  // namespace
 
-std::unique_ptr<DepthStep> make_near_downsample(const ConditionOptions& options) {
+std::unique_ptr<DepthStep> make_near_downsample(const PreprocessOptions& options) {
   return std::make_unique<NearDownsample>(options);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/live/live_keeper.hpp"
+#include "swiftlet/source/live/device_supervisor.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,9 +18,9 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
-const LiveKeeper::Options kQuick{.glance = milliseconds(2),
-                                 .first_sample = milliseconds(2000),
-                                 .stalled_after = milliseconds(300)};
+const DeviceSupervisor::Options kQuick{.poll_period = milliseconds(2),
+                                       .first_sample = milliseconds(2000),
+                                       .stalled_after = milliseconds(300)};
 
 /// A camera whose cable can be pulled and whose firmware can hang: a driver's thread of its own
 /// delivers images into the rig every 2 ms, as long as it is well.
@@ -93,12 +93,12 @@ class Keeper : public ::testing::Test {
   }
 
   LiveRig rig_{SourceInfo{"live:", "+z", std::nullopt, std::nullopt},
-               {.rig = {}, .queue = {}, .patience = std::chrono::seconds(10)}};
+               {.rig = {}, .queue = {}, .timeout = std::chrono::seconds(10)}};
   ShakyCamera camera_{rig_};
 };
 
 TEST_F(Keeper, starts_what_was_unplugged_again_and_the_flight_goes_on) {
-  const auto keeper = LiveKeeper::start(rig_, {camera_.instrument()}, kQuick).value();
+  const auto keeper = DeviceSupervisor::start(rig_, {camera_.instrument()}, kQuick).value();
   frames(3);
   camera_.is_plugged = false;
   keeper->note_unplugged(0);
@@ -123,7 +123,7 @@ TEST_F(Keeper, starts_what_was_unplugged_again_and_the_flight_goes_on) {
 #ifdef SWIFTLET_CAN_LACK_THREADS
 TEST_F(Keeper, says_so_if_the_system_has_no_thread_for_it) {
   const test::NoThreads none;
-  const auto keeper = LiveKeeper::start(rig_, {camera_.instrument()}, kQuick);
+  const auto keeper = DeviceSupervisor::start(rig_, {camera_.instrument()}, kQuick);
   ASSERT_FALSE(keeper);
   EXPECT_EQ(keeper.error().code, ErrorCode::kOutOfMemory);
   EXPECT_EQ(camera_.starts, 0);
@@ -131,7 +131,7 @@ TEST_F(Keeper, says_so_if_the_system_has_no_thread_for_it) {
 #endif
 
 TEST_F(Keeper, starts_what_says_nothing_any_more_again) {
-  const auto keeper = LiveKeeper::start(rig_, {camera_.instrument()}, kQuick).value();
+  const auto keeper = DeviceSupervisor::start(rig_, {camera_.instrument()}, kQuick).value();
   frames(3);
   camera_.is_hanging = true;
   EXPECT_TRUE(fly_until(RigEventKind::kRestarted));
@@ -143,7 +143,7 @@ TEST_F(Keeper, starts_what_says_nothing_any_more_again) {
 TEST_F(Keeper, tells_once_of_a_silence_that_no_restart_cures) {
   auto instrument = camera_.instrument();
   instrument.can_restart = false;
-  const auto keeper = LiveKeeper::start(rig_, {std::move(instrument)}, kQuick).value();
+  const auto keeper = DeviceSupervisor::start(rig_, {std::move(instrument)}, kQuick).value();
   frames(3);
   camera_.is_hanging = true;
   std::this_thread::sleep_for(milliseconds(800));  // twice as long as it takes
@@ -162,7 +162,7 @@ TEST_F(Keeper, does_not_take_one_instrument_for_another) {
   options.first_sample = milliseconds(30);
   other.is_hanging = true;
   const auto keeper =
-      LiveKeeper::start(rig_, {camera_.instrument(), std::move(dead)}, options).value();
+      DeviceSupervisor::start(rig_, {camera_.instrument(), std::move(dead)}, options).value();
   EXPECT_TRUE(fly_until(RigEventKind::kStalled, 2)) << "started again and again";
   EXPECT_EQ(camera_.starts, 1) << "the other one is well";
   for (const RigEvent& event : rig_.take_events()) {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "swiftlet/condition/conditioned_depth.hpp"
+#include "swiftlet/preprocess/preprocessed_depth.hpp"
 
 namespace swiftlet {
 
@@ -21,7 +21,7 @@ struct NoiseTolerance {
 
 /// Three deviations of the difference of two readings, and a surface whose depth changes by a
 /// hundredth from one pixel to the next: at 415 px of focal length that is 76 degrees of incidence.
-[[nodiscard]] NoiseTolerance noise_tolerance(const ConditionedDepth& depth);
+[[nodiscard]] NoiseTolerance noise_tolerance(const PreprocessedDepth& depth);
 
 /// An image with a border of readings that are none, so that every pixel has all its neighbours.
 /// Allocates only when the size of images changes.
@@ -65,14 +65,14 @@ class Neighbours {
   static constexpr int kLeast = 3;
 
   /// Drops every reading that has fewer.
-  void keep_supported(ConditionedDepth& depth);
+  void keep_supported(PreprocessedDepth& depth);
   /// Drops them, and replaces the others by the mean of those of the 5 x 5 around them that agree
   /// with them.
-  void average(ConditionedDepth& depth);
+  void average(PreprocessedDepth& depth);
 
  private:
   template <class MakeRow>
-  void replace_rows(ConditionedDepth& depth, MakeRow make_row);
+  void replace_rows(PreprocessedDepth& depth, MakeRow make_row);
 
   BorderedImage image_{2};
   std::vector<std::uint16_t> tolerance_, count_, sum_, result_;  // of a row, and room for a vector

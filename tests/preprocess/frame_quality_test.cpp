@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/condition/frame_quality.hpp"
+#include "swiftlet/preprocess/frame_quality.hpp"
 
 #include <gtest/gtest.h>
 

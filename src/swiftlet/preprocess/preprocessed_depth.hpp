@@ -22,10 +22,10 @@ struct PixelOrigin {
 
 /// A depth image on its way to the map. Shape (ceil(height / n), ceil(width / n)) uint16 device
 /// units, 0 = no reading.
-struct ConditionedDepth {
+struct PreprocessedDepth {
   Image<std::uint16_t> raw;
-  float unit_m = 0.001F;                    ///< metres per device unit
-  std::optional<PinholeIntrinsics> lens{};  ///< of the full image; nullopt: not told
+  float unit_m = 0.001F;                          ///< metres per device unit
+  std::optional<PinholeIntrinsics> intrinsics{};  ///< of the full image; nullopt: not told
   int ratio = 1;  ///< n: how many pixels of the full image one pixel stands for, along each side
   Image<PixelOrigin> origin;  ///< same shape as raw; empty while ratio is 1
   /// Deviation of a reading as the sensor made it, over the square of its depth [1/m]: s / (f B).

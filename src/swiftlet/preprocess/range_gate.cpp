@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "swiftlet/condition/depth_step.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
 
 namespace swiftlet {
 namespace {
@@ -17,9 +17,9 @@ constexpr double kSlack = 1e-3;
 /// free space up to the limit: a mismatch in the far field must not clear the near one.
 class RangeGate final : public DepthStep {
  public:
-  explicit RangeGate(const ConditionOptions& o) : min_m_(o.min_range_m), max_m_(o.max_range_m) {}
+  explicit RangeGate(const PreprocessOptions& o) : min_m_(o.min_range_m), max_m_(o.max_range_m) {}
 
-  void apply(ConditionedDepth& depth) override {
+  void apply(PreprocessedDepth& depth) override {
     const double unit_m = depth.unit_m;
     const std::uint16_t nearest = device_units(std::ceil(min_m_ / unit_m - kSlack));
     const std::uint16_t farthest = device_units(std::floor(max_m_ / unit_m + kSlack));
@@ -41,7 +41,7 @@ class RangeGate final : public DepthStep {
 
 }  // namespace
 
-std::unique_ptr<DepthStep> make_range_gate(const ConditionOptions& options) {
+std::unique_ptr<DepthStep> make_range_gate(const PreprocessOptions& options) {
   return std::make_unique<RangeGate>(options);
 }
 

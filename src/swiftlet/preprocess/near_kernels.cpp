@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/condition/near_kernels.hpp"
+#include "swiftlet/preprocess/near_kernels.hpp"
 
 #include <cstddef>
 
 // Highway compiles this file once for every instruction set: SSE2 to AVX-512, NEON.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "swiftlet/condition/near_kernels.cpp"
+#define HWY_TARGET_INCLUDE "swiftlet/preprocess/near_kernels.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "swiftlet/condition/depth_step.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
 
 // A depth step is one file, which ends in make_<name>(), and one line here.
 #define SWIFTLET_DEPTH_STEPS(X)                                                                 \
@@ -16,7 +16,7 @@
 namespace swiftlet {
 
 #define SWIFTLET_DECLARE(name, summary) \
-  std::unique_ptr<DepthStep> make_##name(const ConditionOptions& options);
+  std::unique_ptr<DepthStep> make_##name(const PreprocessOptions& options);
 SWIFTLET_DEPTH_STEPS(SWIFTLET_DECLARE)
 #undef SWIFTLET_DECLARE
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "swiftlet/base/registry.hpp"
-#include "swiftlet/condition/conditioned_depth.hpp"
-#include "swiftlet/condition/depth_distortion.hpp"
+#include "swiftlet/preprocess/depth_distortion.hpp"
+#include "swiftlet/preprocess/preprocessed_depth.hpp"
 
 namespace swiftlet {
 
 /// Everything that the depth steps can be told.
-struct ConditionOptions {
+struct PreprocessOptions {
   std::vector<std::string> steps{"distortion", "range_gate", "near_downsample"};  ///< in order
   double min_range_m = 0.2;  ///< nearer readings are dropped: below the D435's shortest distance
   double max_range_m = 10.0;
@@ -29,10 +29,10 @@ struct ConditionOptions {
 class DepthStep {
  public:
   virtual ~DepthStep() = default;
-  virtual void apply(ConditionedDepth& depth) = 0;
+  virtual void apply(PreprocessedDepth& depth) = 0;
 };
 
-using MakeDepthStep = std::unique_ptr<DepthStep> (*)(const ConditionOptions& options);
+using MakeDepthStep = std::unique_ptr<DepthStep> (*)(const PreprocessOptions& options);
 
 /// All depth steps there are.
 [[nodiscard]] std::span<const Registered<MakeDepthStep>> depth_steps();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/rig_facts.hpp"
+#include "swiftlet/source/rig_statistics.hpp"
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 
 namespace swiftlet {
 
-void StreamFacts::note(Stamp stamp, ClockDomain clock) {
+void StreamStatistics::note(Stamp stamp, ClockDomain clock) {
   ++samples;
   ++clocks[static_cast<std::size_t>(clock)];
   if (previous_ && stamp <= *previous_) ++backward;
@@ -23,13 +23,13 @@ void StreamFacts::note(Stamp stamp, ClockDomain clock) {
   last = last ? std::max(*last, stamp) : stamp;
 }
 
-double StreamFacts::rate_hz() const {
+double StreamStatistics::rate_hz() const {
   const double duration_s = seconds(passed_);
   return samples > 1 && duration_s > 0.0 ? static_cast<double>(samples - 1) / duration_s : 0.0;
 }
 
-void CameraFacts::note(const DepthFrame& depth) {
-  StreamFacts::note(depth.stamp, depth.clock);
+void CameraStatistics::note(const DepthFrame& depth) {
+  StreamStatistics::note(depth.stamp, depth.clock);
   if (intrinsics && !(*intrinsics == depth.intrinsics)) {
     ++intrinsics_changes;
     if (!intrinsics_changed) intrinsics_changed = depth.stamp;
@@ -39,7 +39,7 @@ void CameraFacts::note(const DepthFrame& depth) {
 }
 
 void PoseFacts::note(const PoseSample& pose) {
-  StreamFacts::note(pose.stamp, pose.clock);
+  StreamStatistics::note(pose.stamp, pose.clock);
   ++confidence[std::min<std::size_t>(pose.confidence, confidence.size() - 1)];
   const auto T = Transform<World, Body>::from(pose.R_world_body, pose.t_world_body_m);
   if (!T) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "swiftlet/base/contract.hpp"
-#include "swiftlet/condition/depth_step.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
 
 namespace swiftlet {
 namespace {
@@ -20,12 +20,13 @@ struct Bend {
 /// without fused multiply-add the bits are the same on every machine.
 class Distortion final : public DepthStep {
  public:
-  explicit Distortion(const ConditionOptions& options) : distortion_(options.distortion) {}
+  explicit Distortion(const PreprocessOptions& options) : distortion_(options.distortion) {}
 
-  void apply(ConditionedDepth& depth) override {
+  void apply(PreprocessedDepth& depth) override {
     if (distortion_.is_none()) return;
     SWIFTLET_REQUIRE(depth.ratio == 1, "depth is straightened before it is reduced");
-    SWIFTLET_REQUIRE(depth.lens.has_value(), "depth is straightened with the camera's intrinsics");
+    SWIFTLET_REQUIRE(depth.intrinsics.has_value(),
+                     "depth is straightened with the camera's intrinsics");
     prepare(depth);
     const float offset = static_cast<float>(distortion_.offset_m) / depth.unit_m;
     for (int v = 0; v < depth.raw.height(); ++v) {
@@ -49,8 +50,8 @@ class Distortion final : public DepthStep {
   }
 
   /// Allocates only when the size of images changes.
-  void prepare(const ConditionedDepth& depth) {
-    const PinholeIntrinsics& k = *depth.lens;
+  void prepare(const PreprocessedDepth& depth) {
+    const PinholeIntrinsics& k = *depth.intrinsics;
     SWIFTLET_REQUIRE(k.width() == depth.raw.width() && k.height() == depth.raw.height(),
                      "the intrinsics are those of the image");
     const double unit_m = depth.unit_m;
@@ -74,7 +75,7 @@ class Distortion final : public DepthStep {
 
 }  // namespace
 
-std::unique_ptr<DepthStep> make_distortion(const ConditionOptions& options) {
+std::unique_ptr<DepthStep> make_distortion(const PreprocessOptions& options) {
   return std::make_unique<Distortion>(options);
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/condition/neighbour_kernels.hpp"
+#include "swiftlet/preprocess/neighbour_kernels.hpp"
 
 #include <algorithm>
 
 // Highway compiles this file once for every instruction set: SSE2 to AVX-512, NEON.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "swiftlet/condition/neighbour_kernels.cpp"
+#define HWY_TARGET_INCLUDE "swiftlet/preprocess/neighbour_kernels.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
@@ -123,13 +123,13 @@ namespace swiftlet {
 HWY_EXPORT(supported_row);
 HWY_EXPORT(averaged_row);
 
-NoiseTolerance noise_tolerance(const ConditionedDepth& depth) {
+NoiseTolerance noise_tolerance(const PreprocessedDepth& depth) {
   constexpr float kDeviations = 3.0F * 1.41421356F;
   return {1.0F, 0.01F, kDeviations * depth.sigma_per_z2 * depth.unit_m};
 }
 
 template <class MakeRow>
-void Neighbours::replace_rows(ConditionedDepth& depth, MakeRow make_row) {
+void Neighbours::replace_rows(PreprocessedDepth& depth, MakeRow make_row) {
   image_.take(depth.raw);
   const std::size_t room = static_cast<std::size_t>(depth.raw.width()) + BorderedImage::kSlack;
   for (auto* buffer : {&tolerance_, &count_, &sum_, &result_}) buffer->resize(room);
@@ -147,11 +147,11 @@ void Neighbours::replace_rows(ConditionedDepth& depth, MakeRow make_row) {
   }
 }
 
-void Neighbours::keep_supported(ConditionedDepth& depth) {
+void Neighbours::keep_supported(PreprocessedDepth& depth) {
   replace_rows(depth, [](const NeighbourRow& row) { HWY_DYNAMIC_DISPATCH(supported_row)(row); });
 }
 
-void Neighbours::average(ConditionedDepth& depth) {
+void Neighbours::average(PreprocessedDepth& depth) {
   replace_rows(depth, [](const NeighbourRow& row) { HWY_DYNAMIC_DISPATCH(averaged_row)(row); });
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/condition/depth_step.hpp"
-#include "swiftlet/condition/neighbour_kernels.hpp"
+#include "swiftlet/preprocess/depth_step.hpp"
+#include "swiftlet/preprocess/neighbour_kernels.hpp"
 
 namespace swiftlet {
 namespace {
@@ -13,9 +13,9 @@ namespace {
 /// fewer, so the map is told to expect kNoiseLeft of it.
 class Smooth final : public DepthStep {
  public:
-  explicit Smooth(const ConditionOptions&) {}
+  explicit Smooth(const PreprocessOptions&) {}
 
-  void apply(ConditionedDepth& depth) override {
+  void apply(PreprocessedDepth& depth) override {
     constexpr float kNoiseLeft = 0.3F;
     neighbours_.average(depth);
     depth.noise_left *= kNoiseLeft;
@@ -27,7 +27,7 @@ class Smooth final : public DepthStep {
 
 }  // namespace
 
-std::unique_ptr<DepthStep> make_smooth(const ConditionOptions& options) {
+std::unique_ptr<DepthStep> make_smooth(const PreprocessOptions& options) {
   return std::make_unique<Smooth>(options);
 }
 
