@@ -28,7 +28,7 @@ class ToldFlight {
   /// A map begins and is published.
   void begin_map() {
     auto reader = map_.map().reader();
-    map_.map().publish(1);
+    map_.map().publish({1});
     news_.map_begun(std::move(reader));
   }
   /// Frames 30 times a second, or ticks alone, for a while.

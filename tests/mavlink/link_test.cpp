@@ -40,10 +40,11 @@ class CountingUser final : public LinkUser {
   }
   void tick(FrameOutlet& out) override { out.send(0, writer_.write(Heartbeat{}, {})); }
 
-  /// True as soon as a condition holds; false if it does not within ten seconds.
-  bool wait(const std::function<bool(const CountingUser&)>& condition) {
+  /// True as soon as a condition holds; false if it does not for so long.
+  bool wait(const std::function<bool(const CountingUser&)>& condition,
+            std::chrono::milliseconds patience = 10s) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, 10s, [&] { return condition(*this); });
+    return changed_.wait_for(lock, patience, [&] { return condition(*this); });
   }
 
   std::size_t packets_ = 0, opened_ = 0, failed_ = 0;  // with the lock, in wait()
@@ -249,16 +250,24 @@ TEST(LinkThread, lets_nothing_in_that_a_flood_of_strangers_and_forgers_sends) {
     const auto frame = i % 2 == 0 ? forger.write(Heartbeat{}, now) : plain.write(Heartbeat{}, now);
     (void)::send(socket, frame.bytes().data(), frame.bytes().size(), 0);
   }
-  const auto frame = owner.write(Heartbeat{.custom_mode = 9}, now);
-  for (int i = 0; i < 3; ++i) {  // twice replayed
+  const auto send = [&](const WireFrame& frame) {
     (void)::send(socket, frame.bytes().data(), frame.bytes().size(), 0);
-    ASSERT_TRUE(user.wait([](const auto& u) { return u.packets_ == 1; }));
+  };
+  // The system drops what comes while the flood fills its buffer; the owner says it again.
+  WireFrame frame;
+  int said = 0;
+  do {
+    frame = owner.write(Heartbeat{.custom_mode = 9}, now);
+    send(frame);
+  } while (!user.wait([](const auto& u) { return u.packets_ > 0; }, 20ms) && ++said < 500);
+  while ((*link)->tally(0).in.replayed < 2) {
+    send(frame);
+    std::this_thread::sleep_for(1ms);
   }
   EXPECT_EQ(user.last_.as<Heartbeat>()->custom_mode, 9U);
-  while ((*link)->tally(0).in.replayed < 2) std::this_thread::yield();
   EXPECT_GT((*link)->tally(0).in.forged, 0U);
   EXPECT_GT((*link)->tally(0).in.unsigned_packets, 0U);
-  EXPECT_EQ((*link)->tally(0).in.packets, 1U);
+  EXPECT_LE((*link)->tally(0).in.packets, static_cast<std::size_t>(said) + 1);
   ::close(socket);
 }
 #endif

@@ -90,7 +90,7 @@ TEST(ObedientFlight, never_comes_nearer_to_a_wall_than_it_must_keep_however_the_
     FlightNews news;
     Companion companion({.ring = {.max_m = 8}}, news);
     auto reader = map.map().reader();
-    map.map().publish(1);
+    map.map().publish({1});
     news.map_begun(std::move(reader));
     test::RecordingOutlet out;
     ObedientVehicle vehicle;

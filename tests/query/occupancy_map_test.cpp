@@ -89,8 +89,8 @@ TEST(BlockMap, holds_blocks_as_far_apart_as_an_index_reaches) {
 
 TEST(CopyBox, refuses_a_buffer_that_is_too_small) {
   const BlockMap map;
-  std::vector<LogOdds> buffer(7);
-  EXPECT_DEATH(copy_box(map, {{0, 0, 0}, {1, 1, 1}}, std::span<LogOdds>(buffer)), "room");
+  std::vector<QuantizedLogOdds> buffer(7);
+  EXPECT_DEATH(copy_box(map, {{0, 0, 0}, {1, 1, 1}}, std::span<QuantizedLogOdds>(buffer)), "room");
 }
 
 TEST(VoxelBox, counts_its_cells_however_many) {

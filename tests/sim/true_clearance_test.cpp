@@ -143,7 +143,7 @@ TEST(TrueClearance, finds_the_triangle_that_a_box_holds_wholly) {
 }
 
 TEST(TrueClearance, follows_what_moves) {
-  Scene scene;
+  Scene scene = objects_in_scene({{"far", Box{{0, 0, -50}, {1, 1, 1}}}});
   scene.movers.push_back({"box",
                           {{"box", Box{{0, 0, 0}, {1, 1, 1}}}},
                           Flight::create({{0, {0, 0, 0}}, {10, {10, 0, 0}}}).value()});

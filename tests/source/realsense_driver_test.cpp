@@ -27,7 +27,7 @@ constexpr int kFrames = 8;
 
 LiveRig new_rig(Nanoseconds timeout = std::chrono::seconds(10)) {
   return {SourceInfo{"realsense:test", "+y", std::nullopt, std::nullopt},
-          {.rig = intel_t265_d435_rig().rig, .queue = {.capacity = 100}, .timeout = patience}};
+          {.rig = intel_t265_d435_rig().rig, .queue = {.capacity = 100}, .timeout = timeout}};
 }
 
 TEST(RealsenseDriver, puts_the_depth_of_the_sdk_on_the_wall_within_the_rounding_of_depth) {

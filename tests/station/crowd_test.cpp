@@ -26,7 +26,7 @@ class Crowd : public ServedFlight {
   void start(const std::string& token, std::chrono::milliseconds timeout = 3s) {
     StationOptions options;
     options.access.token = token;
-    options.timeout = patience;
+    options.timeout = timeout;
     options.tell = [this](const std::string& line) {
       const std::lock_guard lock(mutex_);
       told_ += line + "\n";

@@ -8,7 +8,7 @@
 
 #include "store/store_support.hpp"
 #include "support/temp_folder.hpp"
-#include "swiftlet/store/stream/tile_store.hpp"
+#include "swiftlet/store/stream/block_store.hpp"
 
 namespace swiftlet {
 namespace {
@@ -19,7 +19,7 @@ TEST(EvictionStall, a_full_buffer_waits_for_the_disk_is_counted_and_loses_nothin
   constexpr std::int32_t kBlocks = 2000;
   test::TempFolder folder;
   auto store =
-      TileStore::create(folder / "a.swl", 0.1, {.batch_interval = 1s, .pending_blocks = 8});
+      BlockStore::create(folder / "a.swl", 0.1, {.batch_interval = 1s, .pending_blocks = 8});
   ASSERT_TRUE(store);
   for (std::int32_t i = 0; i < kBlocks; ++i)
     (*store)->evict({i, 0, 0}, test::block_full_of(1 + i % 250), 1);
@@ -35,7 +35,7 @@ TEST(EvictionStall, a_full_buffer_waits_for_the_disk_is_counted_and_loses_nothin
 TEST(EvictionStall, a_buffer_with_room_never_waits) {
   test::TempFolder folder;
   auto store =
-      TileStore::create(folder / "a.swl", 0.1, {.batch_interval = 1s, .pending_blocks = 1024});
+      BlockStore::create(folder / "a.swl", 0.1, {.batch_interval = 1s, .pending_blocks = 1024});
   ASSERT_TRUE(store);
   for (std::int32_t i = 0; i < 400; ++i) (*store)->evict({i, 0, 0}, test::block_full_of(9), 1);
   EXPECT_EQ((*store)->stats().stalls, 0U);

@@ -109,7 +109,7 @@ TEST(MapFile, notices_every_change_that_sqlite_itself_calls_sound) {
        {"UPDATE blocks SET x = x + 100 WHERE z = 0", "UPDATE blocks SET touched = touched + 1",
         "DELETE FROM blocks WHERE (x, y, z) IN (SELECT x, y, z FROM blocks LIMIT 1)",
         "UPDATE meta SET value = '0.2' WHERE key = 'voxel_m'", "DELETE FROM meta",
-        "DELETE FROM seal", "UPDATE seal SET blocks = blocks - 1", "DROP TABLE meta"}) {
+        "DELETE FROM checksum", "UPDATE checksum SET blocks = blocks - 1", "DROP TABLE meta"}) {
     TempFolder folder;
     write_map(folder / "a.swl", random);
     ASSERT_TRUE(check_map(folder / "a.swl").empty());

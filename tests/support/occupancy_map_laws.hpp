@@ -24,9 +24,9 @@ namespace swiftlet::test {
 struct MapModel {
   double voxel_m = 0.1;
   LogOddsScale scale{{90, 200}, 0.05};  // not the defaults
-  std::unordered_map<VoxelIndex, LogOdds, VoxelHash> cells{};
+  std::unordered_map<VoxelIndex, QuantizedLogOdds, VoxelHash> cells{};
 
-  [[nodiscard]] LogOdds at(const VoxelIndex& v) const {
+  [[nodiscard]] QuantizedLogOdds at(const VoxelIndex& v) const {
     const auto found = cells.find(v);
     return found == cells.end() ? kUnknownCell : found->second;
   }
@@ -40,8 +40,8 @@ inline MapModel random_model(Random& random, const VoxelBox& box) {
   for (int patch = 0; patch < 40; ++patch) {
     const VoxelIndex at{within(box.first.x, box.last.x), within(box.first.y, box.last.y),
                         within(box.first.z, box.last.z)};
-    const auto cell = static_cast<LogOdds>(random.chance(0.8) ? random.integer(0, 100)
-                                                              : random.integer(101, 255));
+    const auto cell = static_cast<QuantizedLogOdds>(random.chance(0.8) ? random.integer(0, 100)
+                                                                       : random.integer(101, 255));
     const int reach = random.integer(0, 6);
     for (VoxelIndex v{at.x - reach, 0, 0}; v.x <= at.x + reach; ++v.x) {
       for (v.y = at.y - reach; v.y <= at.y + reach; ++v.y) {
@@ -81,7 +81,7 @@ inline RayHit cast_in_model(const MapModel& model, const Eigen::Vector3d& from,
 template <OccupancyMap Map>
 void expect_points_and_rays_of(const MapModel& model, const Map& map, const VoxelBox& around,
                                Random& random) {
-  const auto place = [&] {
+  const auto place = [&]() -> Eigen::Vector3d {
     return Eigen::Vector3d(random.real(around.first.x - 8, around.last.x + 8),
                            random.real(around.first.y - 8, around.last.y + 8),
                            random.real(around.first.z - 8, around.last.z + 8)) *
@@ -108,7 +108,7 @@ void expect_points_and_rays_of(const MapModel& model, const Map& map, const Voxe
 template <OccupancyMap Map>
 void expect_box_of(const MapModel& model, const Map& map, const VoxelBox& box, Random& random) {
   CellCounts counts;
-  std::vector<LogOdds> bytes;
+  std::vector<QuantizedLogOdds> bytes;
   for (VoxelIndex v = box.first; v.z <= box.last.z; ++v.z) {
     for (v.y = box.first.y; v.y <= box.last.y; ++v.y) {
       for (v.x = box.first.x; v.x <= box.last.x; ++v.x) {
@@ -119,9 +119,9 @@ void expect_box_of(const MapModel& model, const Map& map, const VoxelBox& box, R
   }
   ASSERT_EQ(bytes.size(), box.voxel_count());
   EXPECT_EQ(count_cells(map, box), counts) << random.repeat();
-  constexpr LogOdds kUntouched = 77;
-  std::vector<LogOdds> copied(bytes.size() + 1, kUntouched);
-  copy_box(map, box, std::span<LogOdds>(copied));
+  constexpr QuantizedLogOdds kUntouched = 77;
+  std::vector<QuantizedLogOdds> copied(bytes.size() + 1, kUntouched);
+  copy_box(map, box, std::span<QuantizedLogOdds>(copied));
   EXPECT_EQ(copied.back(), kUntouched) << "what lies behind the box stays as it is";
   copied.pop_back();
   EXPECT_EQ(copied, bytes) << random.repeat();
@@ -146,7 +146,7 @@ void expect_iteration_of(const MapModel& model, const Map& map) {
     expected.bounds->include(v);
     expected.cells.add(model.state(v));
   }
-  for_each_known_voxel(map, [&](const VoxelIndex& v, LogOdds cell, Occupancy state) {
+  for_each_known_voxel(map, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
     EXPECT_EQ(known.erase(v), 1U) << "each once, and no other";
     EXPECT_EQ(cell, model.at(v));
     EXPECT_EQ(state, model.state(v));

@@ -51,7 +51,7 @@ class BlockMap : public VoxelLookup<BlockMap> {
   /// Sets a whole block.
   void put(const BlockIndex& index, const VoxelBlock& block) { writable(index) = block; }
   /// Sets one cell.
-  void set(const VoxelIndex& voxel, LogOdds cell) {
+  void set(const VoxelIndex& voxel, QuantizedLogOdds cell) {
     writable(block_of(voxel)).cells[offset_in_block(voxel)] = cell;
   }
   /// False if there was no such block.

@@ -15,11 +15,11 @@ struct LogOddsScale {
   double logodds_per_step = 0.04;    ///< natural logarithm of the odds, for one step of a cell
 
   /// What a cell claims.
-  [[nodiscard]] constexpr Occupancy classify(LogOdds cell) const {
+  [[nodiscard]] constexpr Occupancy classify(QuantizedLogOdds cell) const {
     return thresholds.classify(cell);
   }
   /// Probability that there is matter in the cell, 0 to 1; 0.5 where nothing is known.
-  [[nodiscard]] double probability(LogOdds cell) const {
+  [[nodiscard]] double probability(QuantizedLogOdds cell) const {
     return 1.0 / (1.0 + std::exp((kUnknownCell - cell) * logodds_per_step));
   }
   friend constexpr bool operator==(const LogOddsScale&, const LogOddsScale&) = default;

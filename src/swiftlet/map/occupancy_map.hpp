@@ -31,7 +31,7 @@ concept OccupancyMap = requires(const Map& map, const BlockIndex& index, const V
   { map.extent() } -> std::convertible_to<BlockWindow>;
   { map.find(index) } -> std::same_as<const VoxelBlock*>;
   map.for_each_known_block(visit);
-  { map.log_odds(voxel) } -> std::same_as<LogOdds>;
+  { map.log_odds(voxel) } -> std::same_as<QuantizedLogOdds>;
   { map.occupancy(p_world) } -> std::same_as<Occupancy>;
   { map.probability(p_world) } -> std::convertible_to<double>;
 };
@@ -45,7 +45,7 @@ template <class Map>
 class VoxelLookup {
  public:
   /// The byte of a cell; kUnknownCell where nothing is known.
-  [[nodiscard]] LogOdds log_odds(const VoxelIndex& voxel) const {
+  [[nodiscard]] QuantizedLogOdds log_odds(const VoxelIndex& voxel) const {
     const VoxelBlock* block = self().find(block_of(voxel));
     return block == nullptr ? kUnknownCell : block->cells[offset_in_block(voxel)];
   }
@@ -61,7 +61,7 @@ class VoxelLookup {
   // The same of a point.
   /// The byte of the cell around a point [m, world].
   template <std::convertible_to<Eigen::Vector3d> Point>
-  [[nodiscard]] LogOdds log_odds(const Point& p_world) const {
+  [[nodiscard]] QuantizedLogOdds log_odds(const Point& p_world) const {
     constexpr double kFirstBeyond = 2147483648.0;  // an index is an int32
     const Eigen::Vector3d p = p_world;
     const double voxel_m = self().voxel_m();

@@ -85,23 +85,23 @@ void copy_box(const Map& map, const VoxelBox& box, std::span<T> out, Read&& read
 
 /// The bytes themselves.
 template <OccupancyMap Map>
-void copy_box(const Map& map, const VoxelBox& box, std::span<LogOdds> out) {
-  copy_box(map, box, out, [](LogOdds cell) { return cell; });
+void copy_box(const Map& map, const VoxelBox& box, std::span<QuantizedLogOdds> out) {
+  copy_box(map, box, out, [](QuantizedLogOdds cell) { return cell; });
 }
 /// Free, unknown or occupied, by the map's own thresholds.
 template <OccupancyMap Map>
 void copy_box(const Map& map, const VoxelBox& box, std::span<Occupancy> out) {
   const OccupancyThresholds thresholds = map.scale().thresholds;
-  copy_box(map, box, out, [&](LogOdds cell) { return thresholds.classify(cell); });
+  copy_box(map, box, out, [&](QuantizedLogOdds cell) { return thresholds.classify(cell); });
 }
 /// Probabilities of matter, 0 to 1.
 template <OccupancyMap Map>
 void copy_box(const Map& map, const VoxelBox& box, std::span<float> out) {
-  std::array<float, std::numeric_limits<LogOdds>::max() + 1> probability{};
+  std::array<float, std::numeric_limits<QuantizedLogOdds>::max() + 1> probability{};
   const LogOddsScale scale = map.scale();
   for (std::size_t i = 0; i < probability.size(); ++i)
-    probability[i] = static_cast<float>(scale.probability(static_cast<LogOdds>(i)));
-  copy_box(map, box, out, [&](LogOdds cell) { return probability[cell]; });
+    probability[i] = static_cast<float>(scale.probability(static_cast<QuantizedLogOdds>(i)));
+  copy_box(map, box, out, [&](QuantizedLogOdds cell) { return probability[cell]; });
 }
 
 }  // namespace swiftlet

@@ -6,7 +6,7 @@
 namespace swiftlet {
 
 void CellCounts::add(const VoxelBlock& block, const OccupancyThresholds& thresholds) {
-  for (const LogOdds cell : block.cells) add(thresholds.classify(cell));
+  for (const QuantizedLogOdds cell : block.cells) add(thresholds.classify(cell));
 }
 
 }  // namespace swiftlet

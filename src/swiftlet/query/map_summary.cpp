@@ -10,10 +10,11 @@ namespace swiftlet {
 void MapSummary::add(const BlockIndex& index, const VoxelBlock& block,
                      const OccupancyThresholds& thresholds) {
   cells.add(block, thresholds);
-  for_each_known_voxel(index, block, thresholds, [&](const VoxelIndex& v, LogOdds, Occupancy) {
-    if (!bounds) bounds = VoxelBox{v, v};
-    bounds->include(v);
-  });
+  for_each_known_voxel(index, block, thresholds,
+                       [&](const VoxelIndex& v, QuantizedLogOdds, Occupancy) {
+                         if (!bounds) bounds = VoxelBox{v, v};
+                         bounds->include(v);
+                       });
 }
 
 }  // namespace swiftlet

@@ -14,9 +14,9 @@ BlockMap coarser_map(const BlockMap& map, int cells) {
   header.voxel_m *= cells;
   BlockMap out(header);
   const auto place = [cells](std::int32_t v) { return (v >= 0 ? v : v - cells + 1) / cells; };
-  for_each_known_voxel(map, [&](const VoxelIndex& v, LogOdds cell, Occupancy state) {
+  for_each_known_voxel(map, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
     const VoxelIndex large{place(v.x), place(v.y), place(v.z)};
-    LogOdds& kept = out.writable(block_of(large)).cells[offset_in_block(large)];
+    QuantizedLogOdds& kept = out.writable(block_of(large)).cells[offset_in_block(large)];
     const Occupancy before = map.scale().classify(kept);
     if (before == Occupancy::kUnknown || (state == Occupancy::kOccupied && before != state)) {
       kept = cell;

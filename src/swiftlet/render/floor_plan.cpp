@@ -100,7 +100,7 @@ Picture FloorPlan::finish() && {
 }
 
 Columns::Columns(const BlockMap& map, const VoxelBox& box) {
-  for_each_known_voxel(map, [&](const VoxelIndex& v, LogOdds, Occupancy state) {
+  for_each_known_voxel(map, [&](const VoxelIndex& v, QuantizedLogOdds, Occupancy state) {
     if (v.z < box.first.z || v.z > box.last.z) return;
     Column& column = by_block_[block_of({v.x, v.y, 0})][offset_in_block({v.x, v.y, 0})];
     column.free += state == Occupancy::kFree ? 1 : 0;
@@ -123,7 +123,7 @@ std::int32_t layer_at(double m, double voxel_m) {
 
 std::optional<std::int32_t> lowest_matter(const BlockMap& map, const VoxelBox& box) {
   std::optional<std::int32_t> lowest;
-  for_each_known_voxel(map, [&](const VoxelIndex& v, LogOdds, Occupancy state) {
+  for_each_known_voxel(map, [&](const VoxelIndex& v, QuantizedLogOdds, Occupancy state) {
     if (state == Occupancy::kOccupied && box.contains(v))
       lowest = std::min(lowest.value_or(v.z), v.z);
   });

@@ -134,7 +134,7 @@ class IsoDrawing {
 Picture draw_iso(const BlockMap& map, const VoxelBox& whole, const ViewOptions& options) {
   VoxelBox box = cut_box(whole, map.voxel_m(), options);
   std::vector<VoxelIndex> cells;
-  for_each_known_voxel(map, [&](const VoxelIndex& v, LogOdds, Occupancy state) {
+  for_each_known_voxel(map, [&](const VoxelIndex& v, QuantizedLogOdds, Occupancy state) {
     if (state == Occupancy::kOccupied && v.z <= box.last.z) cells.push_back(v);
   });
   std::ranges::sort(cells, [](const VoxelIndex& a, const VoxelIndex& b) {

@@ -43,8 +43,9 @@ Expected<eval::CubeClaims> read_claims(const std::string& path, bool is_salvaged
   auto map = read_and_tell(path, is_salvaged);
   if (!map) return forward_error(std::move(map));
   eval::CubeClaims claims(map->voxel_m());
-  for_each_known_voxel(
-      *map, [&](const VoxelIndex& v, LogOdds, Occupancy state) { claims.add(v, 1, state); });
+  for_each_known_voxel(*map, [&](const VoxelIndex& v, QuantizedLogOdds, Occupancy state) {
+    claims.add(v, 1, state);
+  });
   return claims;
 }
 

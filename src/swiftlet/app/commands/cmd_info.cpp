@@ -16,7 +16,6 @@
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/file/file_kind.hpp"
 #include "swiftlet/session/flight_file.hpp"
-#include "swiftlet/store/map_reader.hpp"
 #include "swiftlet/store/opened_map.hpp"
 
 namespace swiftlet::app {

@@ -19,8 +19,8 @@ struct WayLimits {
 
 /// A polyline from start to the goal whose every point keeps the limits: A* over a grid of 0.15 m
 /// from the start, then straightened. It ends within a grid cell's diagonal of the goal. nullopt if
-/// there is none on that grid. Cost: a microsecond or two for each place looked at; a second at
-/// worst.
+/// there is none on that grid. Cost: some microseconds for each place looked at; a second or
+/// two at worst.
 [[nodiscard]] std::optional<std::vector<Eigen::Vector3d>> clear_way(const RayCaster& world,
                                                                     const Eigen::Vector3d& start_m,
                                                                     const Eigen::Vector3d& goal_m,

@@ -46,7 +46,7 @@ inline constexpr double kWayClearance_m = 0.5;
 /// Draws a scene of a kind ("forest"): the same kind, seed and options give the same scene to the
 /// bit. A draw without a way is thrown away and drawn anew, less densely each time. Errors: kUsage
 /// for an unknown kind (naming those there are) and for options out of range; kInvalidConfig if
-/// no draw had a way. Cost: up to a second.
+/// no draw had a way. Cost: a second or two a draw.
 [[nodiscard]] Expected<GeneratedScene> generate(std::string_view kind, std::uint64_t seed,
                                                 const RandomSceneOptions& options = {});
 

@@ -89,34 +89,43 @@ class Maze {
                corner + half_thick + kHeight_m * Vector3d::UnitZ());
   }
 
+  /// Beside the middle of a cell, so that there is mostly a way around it.
   void put_obstacle() {
     const int x = dice_.integer(0, nx_ - 1), y = dice_.integer(0, ny_ - 1);
-    const Vector3d at = middle(x, y) + dice_.point({-0.9, -0.9, 0.0}, {0.9, 0.9, 0.0});
+    Vector3d aside = dice_.point({0.45, 0.45, 0.0}, {0.95, 0.95, 0.0});
+    if (dice_.chance(0.5)) aside.x() = -aside.x();
+    if (dice_.chance(0.5)) aside.y() = -aside.y();
+    const Vector3d at = middle(x, y) + aside;
     if (draft_.is_kept_free(at, 0.5)) return;
-    const bool is_along_x = dice_.chance(0.5);
-    const Vector3d half = 0.5 * kCell_m * (is_along_x ? Vector3d::UnitX() : Vector3d::UnitY());
     switch (dice_.integer(0, 3)) {
-      case 0: {  // a pipe from wall to wall
-        const Vector3d centre = (is_along_x ? Vector3d(middle(x, y).x(), at.y(), 0.0)
-                                            : Vector3d(at.x(), middle(x, y).y(), 0.0)) +
-                                dice_.real(0.2, 2.3) * Vector3d::UnitZ();
-        draft_.rod("pipe", metal_, centre - half, centre + half, draft_.thin_m(0.06));
-        break;
-      }
+      case 0:
+        return lay_pipe(middle(x, y), aside);
       case 1:
-        draft_.rod("post", metal_, at, at + kHeight_m * Vector3d::UnitZ(), draft_.thin_m(0.1));
-        break;
-      case 2: {  // a step to fly over
-        const double height_m = dice_.real(0.3, 0.9);
-        const Vector3d across = Vector3d(0.12, 0.12, 0.0);
-        draft_.box("low wall", wall_, middle(x, y) - half - across,
-                   middle(x, y) + half + across + height_m * Vector3d::UnitZ());
-        break;
-      }
+        return draft_.rod("post", metal_, at, at + kHeight_m * Vector3d::UnitZ(),
+                          draft_.thin_m(0.1));
+      case 2:
+        return build_step(middle(x, y));
       default:
-        draft_.rod("cable", metal_, at + dice_.real(0.6, 1.8) * Vector3d::UnitZ(),
-                   at + kHeight_m * Vector3d::UnitZ(), draft_.thinnest_m());
+        return draft_.rod("cable", metal_, at + dice_.real(0.6, 1.8) * Vector3d::UnitZ(),
+                          at + kHeight_m * Vector3d::UnitZ(), draft_.thinnest_m());
     }
+  }
+  [[nodiscard]] Vector3d half_cell() {
+    return 0.5 * kCell_m * (dice_.chance(0.5) ? Vector3d::UnitX() : Vector3d::UnitY());
+  }
+  /// From wall to wall, low or high.
+  void lay_pipe(const Vector3d& middle_m, const Vector3d& aside_m) {
+    const Vector3d half = half_cell();
+    Vector3d centre =
+        middle_m + (half.x() > 0.0 ? Vector3d(0, aside_m.y(), 0) : Vector3d(aside_m.x(), 0, 0));
+    centre.z() = dice_.chance(0.5) ? dice_.real(0.2, 0.9) : dice_.real(1.6, 2.35);
+    draft_.rod("pipe", metal_, centre - half, centre + half, draft_.thin_m(0.06));
+  }
+  /// A low wall to fly over.
+  void build_step(const Vector3d& middle_m) {
+    const Vector3d half = half_cell(), thick(0.12, 0.12, 0.0);
+    const Vector3d up = dice_.real(0.3, 0.9) * Vector3d::UnitZ();
+    draft_.box("low wall", wall_, middle_m - half - thick, middle_m + half + thick + up);
   }
 
   SceneDraft& draft_;

@@ -56,7 +56,7 @@ class Office {
   /// Where the walls between the rooms of one side are, both ends included.
   std::vector<double> partitions() {
     std::vector<double> xs{0.0};
-    while (length_m_ - xs.back() > 7.0) xs.push_back(xs.back() + dice_.real(3.2, 5.5));
+    while (length_m_ - xs.back() > 9.0) xs.push_back(xs.back() + dice_.real(3.2, 5.5));
     xs.push_back(length_m_);
     return xs;
   }

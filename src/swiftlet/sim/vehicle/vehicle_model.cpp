@@ -149,10 +149,23 @@ Vector3d VehicleModel::wanted_velocity(const Setpoint& setpoint) const {
   return wanted;
 }
 
+/// Feed forward is not limited by a loop, so it must not drive beyond the limits of speed.
+Vector3d VehicleModel::fed_forward(const Setpoint& setpoint) const {
+  Vector3d ahead = at_most(setpoint.acceleration_mps2.value_or(Vector3d::Zero()),
+                           options_.max_acceleration_mps2);
+  const Eigen::Vector2d level = state_.velocity_mps.head<2>();
+  const double faster = level.dot(ahead.head<2>());
+  if (level.norm() >= options_.max_speed_mps && faster > 0.0)
+    ahead.head<2>() -= faster / level.squaredNorm() * level;
+  const double climb = state_.velocity_mps.z();
+  if (std::abs(climb) >= options_.max_climb_mps && ahead.z() * climb > 0.0) ahead.z() = 0.0;
+  return ahead;
+}
+
 Vector3d VehicleModel::wanted_thrust(const Setpoint& setpoint, double dt_s) {
   const Vector3d wrong_mps = wanted_velocity(setpoint) - state_.velocity_mps;
-  const Vector3d wanted = options_.velocity_gain_per_s * wrong_mps + against_wind_mps2_ +
-                          setpoint.acceleration_mps2.value_or(Vector3d::Zero());
+  const Vector3d wanted =
+      options_.velocity_gain_per_s * wrong_mps + against_wind_mps2_ + fed_forward(setpoint);
   const Vector3d possible = at_most(wanted, options_.max_acceleration_mps2);
   // At its limits it learns nothing (anti-windup), in still air there is nothing to learn.
   if (options_.wind.blows() && possible == wanted) {

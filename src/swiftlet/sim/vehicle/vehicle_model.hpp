@@ -93,6 +93,7 @@ class VehicleModel {
   VehicleModel(const VehicleOptions& options, const VehicleState& start, std::uint64_t seed);
   void step();
   [[nodiscard]] Eigen::Vector3d wanted_velocity(const Setpoint& setpoint) const;
+  [[nodiscard]] Eigen::Vector3d fed_forward(const Setpoint& setpoint) const;
   [[nodiscard]] Eigen::Vector3d wanted_thrust(const Setpoint& setpoint, double dt_s);
   void turn(const Setpoint& setpoint, double dt_s);
 

@@ -18,6 +18,7 @@
 #include "swiftlet/sim/stereo_camera.hpp"
 #include "swiftlet/sim/tracker_model.hpp"
 #include "swiftlet/source/rig/rig.hpp"
+#include "swiftlet/source/rig/rig_file.hpp"
 
 namespace swiftlet {
 
@@ -28,7 +29,7 @@ struct SteeredRigOptions {
   bool has_noise = true;               ///< false: ideal instruments, trusted from the start
   std::optional<std::string> fault{};  ///< something goes wrong with the poses: sim/pose_faults.cpp
   Stamp fault_at{5'000'000'000};       ///< when, where that matters
-  RigOptions rig{};                    ///< its first camera gets the scene's mount
+  RigOptions rig = intel_t265_d435_rig().rig;      ///< its first camera gets the scene's mount
   unsigned threads = sim::StereoCamera::kThreads;  ///< that draw an image; changes no bit of it
 };
 
