@@ -26,6 +26,7 @@
 #include "swiftlet/pipeline/frame_verdict.hpp"
 #include "swiftlet/pipeline/mapper.hpp"
 #include "swiftlet/pipeline/mapper_config.hpp"
+#include "swiftlet/pipeline/new_world_rule.hpp"
 
 // The maps there are.
 #include "swiftlet/map/block_archive.hpp"

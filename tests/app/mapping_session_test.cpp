@@ -124,7 +124,7 @@ TEST(MappingSession, keeps_every_world_in_a_file_of_its_own_when_the_poses_lose_
 TEST(MappingSession, keeps_one_map_of_all_poses_if_that_is_asked_for) {
   const test::TempFolder folder;
   MapperConfig config = config_of_test();
-  config.on_new_world = kKeepInNewWorld;
+  config.on_new_world = NewWorldRule::kKeep;
   const auto session = session_to(folder / "a.swl", false, config);
   fly(*session, world_at(0.0, 0, 5));
   fly(*session, world_at(100.0, 1, 4));

@@ -44,6 +44,9 @@ void vary(test::Random& random, const ConfigField& field, int& value) {
 void vary(test::Random& random, const ConfigField& field, Eigen::Vector3d& value) {
   for (double& v : value) v = random.real(field.min, field.max);
 }
+void vary(test::Random& random, const ConfigField&, NewWorldRule& value) {
+  value = static_cast<NewWorldRule>(random.integer(0, 2));
+}
 void vary(test::Random&, const ConfigField& field, std::string& value) {
   if (field.key == "integrate.ray_method") value = "line_drawing";
 }
@@ -68,6 +71,16 @@ TEST(ConfigFile, a_config_written_as_yaml_reads_back_to_the_same_bits) {
     EXPECT_EQ(back->mapper.depth.steps, config.depth.steps);
     EXPECT_EQ(back->mapper.occupancy.free_below, config.occupancy.free_below);
   });
+}
+
+TEST(ConfigFile, a_rule_for_new_worlds_is_one_of_three_names) {
+  EXPECT_EQ(parse_config("map: {on_new_world: clear}", "f.yaml")->mapper.on_new_world,
+            NewWorldRule::kClear);
+  const auto unknown = parse_config("map: {on_new_world: forget}", "f.yaml");
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().front().text(),
+            "f.yaml:1: map.on_new_world: unknown rule 'forget'; known are: refuse, clear, keep");
+  EXPECT_FALSE(parse_config("map: {on_new_world: [keep]}", "f.yaml"));
 }
 
 TEST(ConfigFile, what_a_file_does_not_say_keeps_its_default) {

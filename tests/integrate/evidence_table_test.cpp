@@ -64,12 +64,8 @@ TEST(EvidenceTable, is_the_mean_of_the_inverse_sensor_model_over_readings_that_s
     const double m = row_depth_m(row), sigma_m = sensor.noise().sigma_m(m);
     const double jump = sensor.model().log_odds(0.0, sigma_m) - sensor.model().free_log_odds();
     for (int c = 1; c < EvidenceTable::kClasses; ++c) {
-<<<<<<< /tmp/tmp3i478i8z/2
-      const double narrow = static_cast<double>(c) / (EvidenceTable::kClasses - 1), t_m = sigma_m / narrow;
-=======
       const double narrow = static_cast<double>(c) / (EvidenceTable::kClasses - 1),
                    t_m = sigma_m / narrow;
->>>>>>> /tmp/tmp3i478i8z/3
       const double scatter_m = std::sqrt(std::max(0.0, t_m * t_m - sigma_m * sigma_m));
       const double half = 0.5 * double{kTableVoxel_m} / t_m;
       for (int column = 1; column < EvidenceTable::kColumns; column += 3) {

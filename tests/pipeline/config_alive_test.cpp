@@ -57,6 +57,7 @@ Outcome outcome_of(const MapperConfig& config) {
 void change(const ConfigField&, double& value) { value *= 0.6; }
 void change(const ConfigField&, int& value) { value -= value / 4 + 1; }
 void change(const ConfigField&, Eigen::Vector3d& value) { value *= 0.6; }
+void change(const ConfigField&, NewWorldRule& value) { value = NewWorldRule::kKeep; }
 void change(const ConfigField& field, std::string& value) {
   if (field.key == "integrate.ray_method") value = "line_drawing";
   if (field.key == "integrate.integrator") value = "projective";

@@ -175,6 +175,7 @@ TEST(MapperConfig, names_every_field_that_cannot_be_used_at_once_and_each_one_ti
     if constexpr (std::is_same_v<Value, double>) value = std::numeric_limits<double>::quiet_NaN();
     if constexpr (std::is_same_v<Value, int>) value = -7;
     if constexpr (std::is_same_v<Value, Eigen::Vector3d>) value.setConstant(-1.0);
+    if constexpr (std::is_same_v<Value, NewWorldRule>) value = static_cast<NewWorldRule>(3);
     if constexpr (std::is_same_v<Value, std::string>) value = "nonsense";
     if constexpr (std::is_same_v<Value, std::vector<std::string>>) value = {"nonsense"};
   });

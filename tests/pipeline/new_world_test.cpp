@@ -20,7 +20,7 @@ Cells cells_of(const Mapper& mapper) {
   return cells;
 }
 
-Mapper mapper_with(std::string_view rule) {
+Mapper mapper_with(NewWorldRule rule) {
   MapperConfig config;
   config.on_new_world = rule;
   config.quality = {0.0, 1.0, 1.0, 1.0, 0};  // takes random images, too
@@ -35,7 +35,7 @@ Frame seen_in(std::uint32_t epoch, double wall_m) {
 
 /// The map of these frames and no others.
 Cells map_of(const std::vector<Frame>& frames) {
-  Mapper mapper = mapper_with(kRefuseNewWorld);
+  Mapper mapper = mapper_with(NewWorldRule::kRefuse);
   for (const Frame& frame : frames) {
     EXPECT_EQ(mapper.integrate(frame).verdict, FrameVerdict::kIntegrated);
   }
@@ -52,7 +52,7 @@ TEST(NewWorld, is_never_fused_into_the_map_of_the_old_one_unless_that_is_asked_f
   }
   EXPECT_EQ(cells_of(mapper), map_of(old_world)) << "refused frames leave no trace";
 
-  Mapper keeper = mapper_with(kKeepInNewWorld);
+  Mapper keeper = mapper_with(NewWorldRule::kKeep);
   for (const auto& frames : {old_world, new_world}) {
     for (const Frame& frame : frames) keeper.integrate(frame);
   }
@@ -68,14 +68,14 @@ TEST(NewWorld, begins_with_the_bits_of_a_new_mapper_and_its_readers_follow) {
       new_world.push_back(test::random_frame(random, test::small_camera(), 3.0));
       new_world.back().pose_epoch = 1;
     }
-    for (const std::string_view rule : {kRefuseNewWorld, kClearForNewWorld}) {
+    for (const NewWorldRule rule : {NewWorldRule::kRefuse, NewWorldRule::kClear}) {
       Mapper mapper = mapper_with(rule);
       const MapReader reader = mapper.reader();
       for (const Frame& frame : old_world) mapper.integrate(frame);
       const auto held = reader.latest();
-      if (rule == kRefuseNewWorld) mapper.begin_world(1);
+      if (rule == NewWorldRule::kRefuse) mapper.begin_world(1);
       for (const Frame& frame : new_world) mapper.integrate(frame);
-      EXPECT_EQ(cells_of(mapper), map_of(new_world)) << rule << random.repeat();
+      EXPECT_EQ(cells_of(mapper), map_of(new_world)) << name_of(rule) << random.repeat();
       EXPECT_EQ(reader.latest()->frame_count(), new_world.size());
       EXPECT_EQ(held->frame_count(), old_world.size()) << "a held snapshot never changes";
     }
@@ -83,7 +83,7 @@ TEST(NewWorld, begins_with_the_bits_of_a_new_mapper_and_its_readers_follow) {
 }
 
 TEST(NewWorld, is_not_cleared_by_frames_that_come_late_or_are_of_no_use) {
-  Mapper mapper = mapper_with(kClearForNewWorld);
+  Mapper mapper = mapper_with(NewWorldRule::kClear);
   mapper.integrate(seen_in(7, 2.0));
   const Cells before = cells_of(mapper);
   EXPECT_EQ(mapper.integrate(seen_in(6, 3.0)).verdict, FrameVerdict::kOtherWorld) << "late";
@@ -101,10 +101,10 @@ class NoArchive final : public BlockArchive {
 
 TEST(NewWorld, is_no_setting_that_could_bring_the_old_one_back) {
   MapperConfig config;
-  config.on_new_world = "forget";
+  config.on_new_world = static_cast<NewWorldRule>(3);
   ASSERT_EQ(config.faults().size(), 1U);
   EXPECT_EQ(config.faults().front().where, "map.on_new_world");
-  config.on_new_world = kClearForNewWorld;
+  config.on_new_world = NewWorldRule::kClear;
   EXPECT_TRUE(Mapper::create(config));
   NoArchive archive;
   EXPECT_FALSE(Mapper::create(config, &archive)) << "the archive still holds the old world";

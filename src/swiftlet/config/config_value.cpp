@@ -71,6 +71,18 @@ Status read_value(std::string_view, const YAML::Node& node, std::string& out) {
   return Done{};
 }
 
+Status read_value(std::string_view key, const YAML::Node& node, NewWorldRule& out) {
+  std::string name;
+  if (auto read = read_value(key, node, name); !read) return read;
+  const auto rule = new_world_rule(name);
+  if (!rule) {
+    return fail(ErrorCode::kInvalidConfig, {}, fmt::format("unknown rule '{}'", name),
+                fmt::format("known are: {}", fmt::join(kNewWorldRuleNames, ", ")));
+  }
+  out = *rule;
+  return Done{};
+}
+
 Status read_value(std::string_view key, const YAML::Node& node, Eigen::Vector3d& out) {
   if (node.IsScalar()) {
     double all = 0.0;
@@ -105,6 +117,7 @@ Status read_value(std::string_view key, const YAML::Node& node, std::vector<std:
 std::string value_text(double value) { return fmt::format("{}", value); }
 std::string value_text(int value) { return fmt::format("{}", value); }
 std::string value_text(const std::string& value) { return value; }
+std::string value_text(NewWorldRule value) { return std::string(name_of(value)); }
 std::string value_text(const Eigen::Vector3d& v) {
   return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z());
 }

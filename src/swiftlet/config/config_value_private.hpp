@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "swiftlet/base/expected.hpp"
+#include "swiftlet/pipeline/new_world_rule.hpp"
 
 namespace swiftlet {
 
@@ -19,6 +20,7 @@ namespace swiftlet {
 [[nodiscard]] Status read_value(std::string_view key, const YAML::Node& node, double& out);
 [[nodiscard]] Status read_value(std::string_view key, const YAML::Node& node, int& out);
 [[nodiscard]] Status read_value(std::string_view key, const YAML::Node& node, std::string& out);
+[[nodiscard]] Status read_value(std::string_view key, const YAML::Node& node, NewWorldRule& out);
 /// One number stands for all three axes.
 [[nodiscard]] Status read_value(std::string_view key, const YAML::Node& node, Eigen::Vector3d& out);
 [[nodiscard]] Status read_value(std::string_view key, const YAML::Node& node,
@@ -28,6 +30,7 @@ namespace swiftlet {
 [[nodiscard]] std::string value_text(double value);
 [[nodiscard]] std::string value_text(int value);
 [[nodiscard]] std::string value_text(const std::string& value);
+[[nodiscard]] std::string value_text(NewWorldRule value);
 [[nodiscard]] std::string value_text(const Eigen::Vector3d& value);
 [[nodiscard]] std::string value_text(const std::vector<std::string>& value);
 

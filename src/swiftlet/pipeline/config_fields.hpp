@@ -164,7 +164,7 @@ void occupancy(Options& o, Visit& visit) {
 
 /// Calls visit(ConfigField, member&) for every parameter: the one list that the file reader, the
 /// echo in the map, the documentation and the tests share. Members are double, int,
-/// Eigen::Vector3d, std::string or a list of strings.
+/// Eigen::Vector3d, NewWorldRule, std::string or a list of strings.
 template <class Config, class Visit>
 void visit_config(Config& c, Visit&& visit) {
   config_fields::map(c.map, visit);

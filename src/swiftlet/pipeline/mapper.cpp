@@ -13,7 +13,7 @@ namespace swiftlet {
 Expected<Mapper> Mapper::create(const MapperConfig& config, BlockArchive* archive) {
   if (auto faults = config.faults(); !faults.empty())
     return tl::make_unexpected(std::move(faults.front()));
-  if (config.on_new_world == kClearForNewWorld && archive != nullptr) {
+  if (config.on_new_world == NewWorldRule::kClear && archive != nullptr) {
     return fail(ErrorCode::kInvalidConfig, "map.on_new_world",
                 "an archive would bring the blocks of the old world back into the cleared map",
                 "choose 'refuse', and call begin_world() when the archive is a new one, too");
@@ -34,8 +34,8 @@ Mapper::Mapper(const MapperConfig& config, BlockArchive* archive, RollingMap map
                Preprocessor preprocessor, MeasurementModelPtr model,
                std::unique_ptr<Integrator> integrator)
     : config_(config),
-      clears_for_new_world_(config.on_new_world == kClearForNewWorld),
-      keeps_in_new_world_(config.on_new_world == kKeepInNewWorld),
+      clears_for_new_world_(config.on_new_world == NewWorldRule::kClear),
+      keeps_in_new_world_(config.on_new_world == NewWorldRule::kKeep),
       archive_(archive),
       map_(std::move(map)),
       gate_(std::make_unique<FrameGate>(config.quality)),

@@ -34,6 +34,12 @@ void check(std::vector<Error>& faults, const ConfigField& field, const Eigen::Ve
   refuse(faults, field, fmt::format("[{}, {}, {}]", value.x(), value.y(), value.z()));
 }
 
+void check(std::vector<Error>& faults, const ConfigField& field, NewWorldRule value) {
+  if (static_cast<std::size_t>(value) < kNewWorldRuleNames.size()) return;
+  faults.push_back(
+      {ErrorCode::kInvalidConfig, std::string(field.key), "is no rule", "choose a NewWorldRule"});
+}
+
 void check(std::vector<Error>&, const ConfigField&, const std::string&) {}
 void check(std::vector<Error>&, const ConfigField&, const std::vector<std::string>&) {}
 
@@ -69,10 +75,6 @@ std::vector<Error> MapperConfig::faults() const {
   keep_fault(faults, "integrate.integrator",
              find_registered(integrators(), integrate.integrator, "integrator"));
   keep_fault(faults, "integrate.model", find_measurement_model(integrate.model));
-  if (!is_new_world_rule(on_new_world)) {
-    faults.push_back({ErrorCode::kInvalidConfig, "map.on_new_world",
-                      fmt::format("unknown rule '{}'", on_new_world),
-                      "known are: refuse, clear, keep"});
   }
   keep_fault(faults, "integrate.ray_method", find_ray_method(integrate.ray_method));
   const bool is_straightened = std::ranges::find(depth.steps, "distortion") != depth.steps.end();

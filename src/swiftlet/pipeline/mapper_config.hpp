@@ -15,6 +15,7 @@
 #include "swiftlet/pipeline/lookahead.hpp"
 #include "swiftlet/preprocess/depth_step.hpp"
 #include "swiftlet/preprocess/frame_quality.hpp"
+#include "swiftlet/pipeline/new_world_rule.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 
 namespace swiftlet {
@@ -22,30 +23,16 @@ namespace swiftlet {
 /// The measurement model of the thesis, for its experiments and tables.
 inline constexpr std::string_view kThesisModel = "inverse_sensor_model";
 
-/// What becomes of a frame whose poses began a new world (Frame::pose_epoch), of which the map
-/// knows nothing: it is refused until the owner calls Mapper::begin_world(); or the map is cleared
-/// and begun anew with it; or it is fused into the map as if nothing had happened.
-inline constexpr std::string_view kRefuseNewWorld = "refuse";
-/// The map is cleared and begun anew with the frame.
-inline constexpr std::string_view kClearForNewWorld = "clear";
-/// The frame is fused as if nothing had happened.
-inline constexpr std::string_view kKeepInNewWorld = "keep";
-/// Whether it is one of these three.
-[[nodiscard]] constexpr bool is_new_world_rule(std::string_view name) {
-  return name == kRefuseNewWorld || name == kClearForNewWorld || name == kKeepInNewWorld;
-}
-
 /// Every parameter of the mapper, with its default.
 struct MapperConfig {
-  RollingMap::Options map;  ///< cell size, window and trigger box
-  std::string on_new_world{
-      kRefuseNewWorld};           ///< kRefuseNewWorld, kClearForNewWorld or kKeepInNewWorld
-  WindowOptions window;           ///< where the window lies around the vehicle
-  QualityLimits quality;          ///< which images are not worth a fusion
-  PreprocessOptions depth;        ///< the steps, and their parameters
-  SensorOptions sensor;           ///< geometry and noise of the camera
-  IntegrateOptions integrate;     ///< how a frame is fused
-  OccupancyThresholds occupancy;  ///< where belief becomes a claim
+  RollingMap::Options map;                            ///< cell size, window and trigger box
+  NewWorldRule on_new_world = NewWorldRule::kRefuse;  ///< when the poses lose their place
+  WindowOptions window;                               ///< where the window lies around the vehicle
+  QualityLimits quality;                              ///< which images are not worth a fusion
+  PreprocessOptions depth;                            ///< the steps, and their parameters
+  SensorOptions sensor;                               ///< geometry and noise of the camera
+  IntegrateOptions integrate;                         ///< how a frame is fused
+  OccupancyThresholds occupancy;                      ///< where belief becomes a claim
 
   /// How the cells of its map are read.
   [[nodiscard]] LogOddsScale scale() const { return {occupancy, integrate.logodds_per_step}; }

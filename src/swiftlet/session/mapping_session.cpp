@@ -25,7 +25,7 @@ Expected<std::unique_ptr<MappingSession>> MappingSession::create(const MapperCon
 Status MappingSession::begin_map(const MapperConfig& config) {
   MapperConfig used = config;
   // Cleared or refused: what the new world is mapped into is for the session to say.
-  if (used.on_new_world == kClearForNewWorld) used.on_new_world = kRefuseNewWorld;
+  if (used.on_new_world == NewWorldRule::kClear) used.on_new_world = NewWorldRule::kRefuse;
   auto mapper = Mapper::create(used, &archive_);
   if (!mapper) return forward_error(std::move(mapper));
   mapper_ = std::make_unique<Mapper>(std::move(*mapper));
@@ -103,7 +103,7 @@ void MappingSession::start_again(std::uint32_t pose_epoch) {
 }
 
 Status MappingSession::integrate(const Frame& frame) {
-  const bool keeps = mapper_->config().on_new_world == kKeepInNewWorld;
+  const bool keeps = mapper_->config().on_new_world == NewWorldRule::kKeep;
   if (!keeps && start_m_ && frame.pose_epoch > pose_epoch_) start_again(frame.pose_epoch);
   const MapUpdate update = mapper_->integrate(frame);
   book(frame, update);

@@ -7,11 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-<<<<<<< /tmp/tmp1n_85__3/2
-=======
 #include "swiftlet/base/voxel_index.hpp"
-#include "swiftlet/condition/conditioned_depth.hpp"
->>>>>>> /tmp/tmp1n_85__3/3
 #include "swiftlet/integrate/depth_view.hpp"
 #include "swiftlet/preprocess/preprocessed_depth.hpp"
 
