@@ -7,6 +7,7 @@
 
 #include "support/occupancy_map_laws.hpp"
 #include "support/temp_folder.hpp"
+#include "swiftlet/store/map_file/salvage.hpp"
 #include "swiftlet/store/map_file/save_map.hpp"
 #include "swiftlet/store/map_loader.hpp"
 
@@ -69,6 +70,20 @@ TEST(HeaderLines, what_cannot_be_meant_is_refused_by_name) {
     ASSERT_FALSE(header) << odd.begin()->second;
     EXPECT_EQ(header.error().code, ErrorCode::kCorruptInput);
     EXPECT_EQ(header.error().where, "a.swl");
+  }
+}
+
+TEST(HeaderLines, that_are_refused_are_left_out_by_salvage_which_says_so) {
+  for (const MapMeta& odd : {MapMeta{{"free_below", "900"}}, MapMeta{{"config", "a: [\n"}}}) {
+    const test::TempFolder folder;
+    ASSERT_TRUE(MapFile::create(folder / "a.swl", false, with(odd)));
+    EXPECT_FALSE(load_map(folder / "a.swl"));
+    EXPECT_FALSE(check_map(folder / "a.swl").empty());
+    const auto found = load_salvaged(folder / "a.swl");
+    ASSERT_TRUE(found) << found.error().text();
+    EXPECT_EQ(found->first.thresholds(), OccupancyThresholds{});
+    ASSERT_EQ(found->second.notes.size(), 1U);
+    EXPECT_NE(found->second.notes.front().find("thresholds"), std::string::npos);
   }
 }
 

@@ -138,16 +138,17 @@ void make_readable(MapMeta& meta, double voxel_m, const Finder& found,
     meta.erase(start);
     notes.emplace_back("its start_m is no place in the world and is left out");
   }
-  if (!thresholds_from(meta, {})) {
-    for (const char* line : {"free_below", "occupied_from", "config"}) meta.erase(line);
-    notes.emplace_back("its thresholds cannot be meant; defaults stand in");
-  }
   if (number_from<std::uint64_t>(meta["frames"])) return;
   std::int64_t newest = 0;
   for (const auto& [index, place] : found.good_) newest = std::max(newest, place.touched);
   meta["frames"] = std::to_string(newest);
   notes.push_back(
       fmt::format("its number of frames is lost: {} is that of its newest block", newest));
+}
+
+/// Takes out the lines that tell the thresholds; whether there were any.
+bool erase_thresholds(MapMeta& meta) {
+  return meta.erase("config") + meta.erase("free_below") + meta.erase("occupied_from") > 0;
 }
 
 /// What the map tells of itself: all of it if it is sound, else the lines that can be meant.
@@ -163,12 +164,15 @@ Expected<MapMeta> described(const Finder& found, const fs::path& path,
         "nothing can be made of them");
   }
   make_readable(meta, *voxel_m, found, notes);
-  if (is_sound) return meta;
+  if (is_sound) {
+    if (!thresholds_from(meta, path.string()) && erase_thresholds(meta))
+      notes.emplace_back("its thresholds cannot be meant; defaults stand in");
+    return meta;
+  }
   notes.push_back(fmt::format(
       "its description is damaged: a cell size of {} m is what can be read of it", *voxel_m));
-  const std::size_t left_out =
-      meta.erase("config") + meta.erase("free_below") + meta.erase("occupied_from");
-  if (left_out > 0) notes.emplace_back("its config and thresholds are left out; defaults stand in");
+  if (erase_thresholds(meta))
+    notes.emplace_back("its config and thresholds are left out; defaults stand in");
   const auto step = meta.find("logodds_per_step");
   if (step == meta.end()) return meta;
   const auto value = number_from<double>(step->second);
