@@ -75,7 +75,6 @@ std::vector<Error> MapperConfig::faults() const {
   keep_fault(faults, "integrate.integrator",
              find_registered(integrators(), integrate.integrator, "integrator"));
   keep_fault(faults, "integrate.model", find_measurement_model(integrate.model));
-  }
   keep_fault(faults, "integrate.ray_method", find_ray_method(integrate.ray_method));
   const bool is_straightened = std::ranges::find(depth.steps, "distortion") != depth.steps.end();
   if (faults.empty() && !depth.distortion.is_none() && !is_straightened) {
