@@ -36,7 +36,8 @@ int main(int argc, char** argv) {
               probabilities.size());
 
   value_of(render::write_png(value_of(render::draw_view("top", map, {})), out + ".png"));
-  const auto report = value_of(eval::score_source({address, config.mapper, {"guarded"}, 40}));
+  const auto report =
+      value_of(eval::score_source({address, config.mapper, {"precision_weighted"}, 40}));
   for (const eval::ScoreRow& row : report.rows)
     std::printf("%s: %.3f\n", row.meaning.name.c_str(), row.values[0].value_or(0.0));
 }

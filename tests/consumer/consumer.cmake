@@ -62,6 +62,10 @@ if(SWIFTLET_INSTALL)
              COMMAND sh -c "set -e; flags=$(PKG_CONFIG_PATH=${pc_path} pkg-config --cflags --libs ${package}); \
 ${CMAKE_CXX_COMPILER} -std=c++20 ${CMAKE_CURRENT_SOURCE_DIR}/consumer/${program}.cpp -o ${built} $flags; ${built}")
     set_tests_properties(consumer.pkg_config.${package} PROPERTIES FIXTURES_REQUIRED consumer_installed LABELS consumer)
+    if(SWIFTLET_HAS_REALSENSE)  # the SDK may lie where no loader looks; CMake writes that into its programs, pkg-config not
+      set_tests_properties(consumer.pkg_config.${package} PROPERTIES
+                           ENVIRONMENT "LD_LIBRARY_PATH=$<TARGET_FILE_DIR:realsense2::realsense2>")
+    endif()
   endforeach()
 endif()
 # The core alone: the rest would compile once more what the build before has shown to compile.
