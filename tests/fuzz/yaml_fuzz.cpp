@@ -16,10 +16,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace swiftlet;
   const std::string text(reinterpret_cast<const char*>(data), size);
-  if (const auto config = app::parse_config(text, "f.yaml")) {
-    const std::string written = app::config_to_yaml(config->mapper);
-    const auto again = app::parse_config(written, "g.yaml");
-    if (!again || app::config_to_yaml(again->mapper) != written) std::abort();
+  if (const auto config = parse_config(text, "f.yaml")) {
+    const std::string written = config_to_yaml(config->mapper);
+    const auto again = parse_config(written, "g.yaml");
+    if (!again || config_to_yaml(again->mapper) != written) std::abort();
   }
   (void)parse_rig(text, "f.yaml");
   // Meshes are other files, which ply_fuzz reads.

@@ -13,9 +13,9 @@
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/pipeline/config_fields.hpp"
 #include "swiftlet/pipeline/lookahead.hpp"
+#include "swiftlet/pipeline/new_world_rule.hpp"
 #include "swiftlet/preprocess/depth_step.hpp"
 #include "swiftlet/preprocess/frame_quality.hpp"
-#include "swiftlet/pipeline/new_world_rule.hpp"
 #include "swiftlet/sensor/stereo_sensor.hpp"
 
 namespace swiftlet {

@@ -37,7 +37,8 @@ bool changes_a_file(const __ptrace_syscall_info& call) {
   if (chdir(folder.c_str()) != 0 || dup2(nowhere, STDOUT_FILENO) < 0 ||
       dup2(nowhere, STDERR_FILENO) < 0)
     _exit(126);
-  setenv("ASAN_OPTIONS", "detect_leaks=0", 1);  // the search for leaks is a tracer, too, and there is one
+  setenv("ASAN_OPTIONS", "detect_leaks=0",
+         1);  // the search for leaks is a tracer, too, and there is one
   if (ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) _exit(125);
   std::raise(SIGSTOP);  // until the options are set
   execv(SWIFTLET_PROGRAM, words.data());
