@@ -7,6 +7,8 @@
 #include <algorithm>
 
 #include "store/store_support.hpp"
+#include "swiftlet/query/cell_counts.hpp"
+#include "swiftlet/store/map_loader.hpp"
 
 namespace swiftlet {
 namespace {
@@ -109,13 +111,28 @@ TEST(MapFile, notices_every_change_that_sqlite_itself_calls_sound) {
        {"UPDATE blocks SET x = x + 100 WHERE z = 0", "UPDATE blocks SET touched = touched + 1",
         "DELETE FROM blocks WHERE (x, y, z) IN (SELECT x, y, z FROM blocks LIMIT 1)",
         "UPDATE meta SET value = '0.2' WHERE key = 'voxel_m'", "DELETE FROM meta",
-        "DELETE FROM checksum", "UPDATE checksum SET blocks = blocks - 1", "DROP TABLE meta"}) {
+        "DELETE FROM seal", "UPDATE seal SET blocks = blocks - 1", "DROP TABLE meta"}) {
     TempFolder folder;
     write_map(folder / "a.swl", random);
     ASSERT_TRUE(check_map(folder / "a.swl").empty());
     run_sql(folder / "a.swl", change);
     EXPECT_FALSE(check_map(folder / "a.swl").empty()) << change;
   }
+}
+
+// tests/golden/map_0.1.0.swl is of the program of version 0.1.0: what is on disk keeps its names.
+TEST(MapFile, that_an_earlier_program_wrote_is_read) {
+  const std::filesystem::path path = SWIFTLET_SOURCE_DIR "/tests/golden/map_0.1.0.swl";
+  EXPECT_TRUE(check_map(path).empty());
+  const auto map = load_map(path);
+  ASSERT_TRUE(map) << map.error().text();
+  EXPECT_EQ(map->frames(), 7U);
+  const auto whole = read_whole_map(*map);
+  ASSERT_TRUE(whole) << whole.error().text();
+  EXPECT_EQ(whole->voxel_m(), 0.1);
+  EXPECT_EQ(whole->block_count(), 40U);
+  EXPECT_EQ(count_cells(*whole), (CellCounts{3584, 16896, 0}));
+  EXPECT_EQ(whole->header().start_m, Eigen::Vector3d(0, 1, 2));
 }
 
 TEST(MapFile, refuses_a_newer_version_by_name) {

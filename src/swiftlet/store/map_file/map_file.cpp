@@ -97,14 +97,12 @@ Expected<MapMeta> MapFile::meta() {
 }
 
 Expected<MapChecksum> MapFile::checksum() {
-  auto line =
-      database_.prepare("SELECT blocks, block_digest, meta_digest FROM checksum WHERE id = 0");
+  auto line = database_.prepare("SELECT blocks, block_digest, meta_digest FROM seal WHERE id = 0");
   if (!line) return forward_error(std::move(line));
   auto has_row = line->step();
   if (!has_row) return forward_error(std::move(has_row));
   if (!*has_row)
-    return fail(ErrorCode::kCorruptInput, path_.string(),
-                "the map has no checksum (table 'checksum')");
+    return fail(ErrorCode::kCorruptInput, path_.string(), "the map has no checksum (table 'seal')");
   return MapChecksum{line->integer(0), as_unsigned(line->integer(1)),
                      as_unsigned(line->integer(2))};
 }

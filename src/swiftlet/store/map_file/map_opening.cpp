@@ -151,7 +151,7 @@ Status MapFile::prepare_writing() {
        {&erase_, "DELETE FROM blocks WHERE z = ?1 AND y = ?2 AND x = ?3"},
        {&put_meta_, "INSERT OR REPLACE INTO meta VALUES(?1, ?2)"},
        {&put_checksum_,
-        "UPDATE checksum SET blocks = ?1, block_digest = ?2, meta_digest = ?3 WHERE id = 0"},
+        "UPDATE seal SET blocks = ?1, block_digest = ?2, meta_digest = ?3 WHERE id = 0"},
        {&oldest_,
         "SELECT z, y, x, touched, 0, NULL FROM blocks ORDER BY touched, z, y, x LIMIT ?1"},
        {&page_count_, "PRAGMA page_count"},

@@ -29,7 +29,7 @@ constexpr const char* kBlocksTable =
 constexpr const char* kMetaTable =
     "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID";
 constexpr const char* kChecksumTable =
-    "CREATE TABLE checksum(id INTEGER PRIMARY KEY, blocks INTEGER NOT NULL, "
+    "CREATE TABLE seal(id INTEGER PRIMARY KEY, blocks INTEGER NOT NULL, "
     "block_digest INTEGER NOT NULL, meta_digest INTEGER NOT NULL)";
 
 fs::path beside(const fs::path& path, const char* suffix) { return path.string() + suffix; }
@@ -48,7 +48,7 @@ Status write_description(const Database& database, const MapMeta& meta) {
     if (auto written = line->bind(1, key).bind(2, value).run(); !written) return written;
     digest += meta_checksum(key, value);
   }
-  auto checksum = database.prepare("INSERT INTO checksum VALUES(0, 0, 0, ?1)");
+  auto checksum = database.prepare("INSERT INTO seal VALUES(0, 0, 0, ?1)");
   if (!checksum) return forward_error(std::move(checksum));
   return checksum->bind(1, static_cast<std::int64_t>(digest)).run();
 }
@@ -213,7 +213,7 @@ Status MapFile::check_identity() const {
     return fail(ErrorCode::kCorruptInput, path_.string(), "the map has no valid version");
   }
   for (const auto& [name, sql] : {std::pair{"blocks", kBlocksTable}, std::pair{"meta", kMetaTable},
-                                  std::pair{"checksum", kChecksumTable}}) {
+                                  std::pair{"seal", kChecksumTable}}) {
     if (auto good = check_table(database_, name, sql, path_); !good) return good;
   }
   return Done{};
