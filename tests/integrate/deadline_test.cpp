@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <map>
 
 #include "support/synthetic.hpp"
@@ -32,10 +33,9 @@ class LimitedFrame {
     map->recentre(Eigen::Vector3d::Zero(), nullptr);
     const auto integrator =
         *make_integrator({.integrator = "projective", .max_frame_ms = max_frame_ms});
-    const auto model = find_measurement_model("inverse_sensor_model")->make();
     const DepthView view{depth_, pyramid_, frame_.intrinsics, frame_.T_world_camera, 0};
     const StereoSensor sensor(frame_.intrinsics, {}, 0.05, 1);
-    const IntegrationTally tally = integrator->integrate(view, sensor, *model, *map);
+    const IntegrationTally tally = integrator->integrate(view, sensor, *model_, *map);
     map->for_each_known_block([&](const BlockIndex& i, const VoxelBlock& b) { blocks[i] = b; });
     return tally;
   }
@@ -45,6 +45,8 @@ class LimitedFrame {
   Preprocessor preprocessor_;
   const PreprocessedDepth& depth_;
   DepthRangePyramid pyramid_;
+  // One for all, so that its table is filled once and not within the limit.
+  MeasurementModelPtr model_ = find_measurement_model("inverse_sensor_model")->make();
 };
 
 // A limit that is over before the first block: nothing is fused, and what is left is counted.
@@ -66,9 +68,15 @@ TEST(Deadline, never_gives_a_block_half_of_a_frame) {
   test::Random random;
   const LimitedFrame frame(random);
   KnownBlocks all;
+  frame.fuse(0.0, all);  // fills the table
+  const auto start = std::chrono::steady_clock::now();
   const IntegrationTally whole = frame.fuse(0.0, all);
+  const std::chrono::duration<double, std::milli> whole_ms =
+      std::chrono::steady_clock::now() - start;
   int parted = 0;
-  for (double limit_ms = 0.05; limit_ms < 500.0 && parted < 5; limit_ms *= 1.2) {
+  constexpr int kLimits = 80;
+  for (int i = 1; i <= kLimits && parted < 5; ++i) {
+    const double limit_ms = i * whole_ms.count() / kLimits;
     KnownBlocks some;
     const IntegrationTally tally = frame.fuse(limit_ms, some);
     EXPECT_EQ(tally.blocks, some.size());
@@ -76,8 +84,7 @@ TEST(Deadline, never_gives_a_block_half_of_a_frame) {
     parted += tally.blocks > 0 && tally.blocks < whole.blocks ? 1 : 0;
     EXPECT_TRUE(tally.blocks == whole.blocks || tally.blocks_left > 0);
   }
-  // By the clock: where others keep the processor, all blocks are late or none is.
-  if (parted == 0) GTEST_SKIP() << "no limit parted the frame on a machine as busy as this one";
+  EXPECT_GT(parted, 0) << "no limit parted the frame: there is nothing to see here";
 }
 
 }  // namespace
