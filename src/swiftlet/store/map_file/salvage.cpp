@@ -7,24 +7,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "swiftlet/base/number_text.hpp"
-#include "swiftlet/store/map_file/header_lines.hpp"
 #include "swiftlet/store/map_file/map_pages.hpp"
 #include "swiftlet/store/map_file/recovered_map.hpp"
+#include "swiftlet/store/map_file/salvaged_description.hpp"
 
 namespace swiftlet {
 namespace {
 
 namespace fs = std::filesystem;
 using Kind = MapPages::Column::Kind;
-
-/// Bytes of a description that are kept; half of what a reader takes, and some kilobytes are usual.
-constexpr std::size_t kMostDescription = std::size_t{1} << 19U;
 
 /// Where a block lies in the file.
 struct Place {
@@ -60,6 +55,14 @@ class Finder {
       if (page > pages_.count() || damaged_pages_.contains(page)) gaps_.push_back(gap);
     }
     return passed;
+  }
+
+  /// What tells of the map, beside its blocks.
+  [[nodiscard]] DescriptionRemains remains() const {
+    DescriptionRemains remains{meta_, checksum_, good_.size(), 0};
+    for (const auto& [index, place] : good_)
+      remains.newest_frame = std::max(remains.newest_frame, place.touched);
+    return remains;
   }
 
   std::unordered_map<BlockIndex, Place, BlockHash> good_;
@@ -113,72 +116,6 @@ class Finder {
   std::vector<std::pair<std::uint32_t, SalvageReport::Gap>> ranges_;
   std::unordered_set<std::uint32_t> damaged_pages_;
 };
-
-std::uint64_t digest_of(const MapMeta& meta) {
-  std::uint64_t digest = 0;
-  for (const auto& [key, value] : meta) digest += meta_checksum(key, value);
-  return digest;
-}
-
-/// Takes out of a description what a reader would refuse, and tells it.
-void make_readable(MapMeta& meta, double voxel_m, const Finder& found,
-                   std::vector<std::string>& notes) {
-  std::size_t bytes = 0, left_out = 0;
-  for (auto line = meta.begin(); line != meta.end();) {
-    const std::size_t size = line->first.size() + line->second.size() + 1;
-    const bool is_needed = line->first == "voxel_m" || line->first == "frames";
-    const bool is_kept = is_needed ? size < 100 : bytes + size <= kMostDescription;
-    left_out += is_kept ? 0 : 1;
-    bytes += is_kept ? size : 0;
-    line = is_kept ? std::next(line) : meta.erase(line);
-  }
-  if (left_out > 0) notes.emplace_back("its description is longer than any and is shortened");
-  const auto start = meta.find("start_m");
-  if (start != meta.end() && !place_from(start->second, voxel_m)) {
-    meta.erase(start);
-    notes.emplace_back("its start_m is no place in the world and is left out");
-  }
-  if (number_from<std::uint64_t>(meta["frames"])) return;
-  std::int64_t newest = 0;
-  for (const auto& [index, place] : found.good_) newest = std::max(newest, place.touched);
-  meta["frames"] = std::to_string(newest);
-  notes.push_back(
-      fmt::format("its number of frames is lost: {} is that of its newest block", newest));
-}
-
-/// Takes out the lines that tell the thresholds; whether there were any.
-bool erase_thresholds(MapMeta& meta) {
-  return meta.erase("config") + meta.erase("free_below") + meta.erase("occupied_from") > 0;
-}
-
-/// What the map tells of itself: all of it if it is sound, else the lines that can be meant.
-Expected<MapMeta> described(const Finder& found, const fs::path& path,
-                            std::vector<std::string>& notes) {
-  MapMeta meta = found.meta_;
-  const bool is_sound = found.checksum_ && digest_of(meta) == found.checksum_->meta_digest;
-  const auto voxel_m = number_from<double>(meta["voxel_m"]);
-  if (!voxel_m || meta["voxel_m"].size() > 80 || !std::isfinite(*voxel_m) || *voxel_m <= 0.0) {
-    return fail(
-        ErrorCode::kCorruptInput, path.string(),
-        fmt::format("{} blocks can be read, but not how large their cells are", found.good_.size()),
-        "nothing can be made of them");
-  }
-  make_readable(meta, *voxel_m, found, notes);
-  if (is_sound) {
-    if (!thresholds_from(meta, path.string()) && erase_thresholds(meta))
-      notes.emplace_back("its thresholds cannot be meant; defaults stand in");
-    return meta;
-  }
-  notes.push_back(fmt::format(
-      "its description is damaged: a cell size of {} m is what can be read of it", *voxel_m));
-  if (erase_thresholds(meta))
-    notes.emplace_back("its config and thresholds are left out; defaults stand in");
-  const auto step = meta.find("logodds_per_step");
-  if (step == meta.end()) return meta;
-  const auto value = number_from<double>(step->second);
-  if (!value || !std::isfinite(*value) || *value <= 0.0) meta.erase(step);
-  return meta;
-}
 
 /// Writes the good blocks, by z, y, x; in transactions whose logs stay small.
 Status write_good(const Finder& found, const MapPages& pages, MapFile& file) {
@@ -244,7 +181,7 @@ Expected<SalvageReport> salvage_pages(const fs::path& source, const fs::path& pa
   if (auto ran = found.run(); !ran) return forward_error(std::move(ran));
   constexpr std::int64_t kMostInAPage = 4096 / 20;
   SalvageReport report = report_of(found, pages->count() * kMostInAPage);
-  auto meta = described(found, path, report.notes);
+  auto meta = salvaged_description(found.remains(), path, report.notes);
   if (!meta) return forward_error(std::move(meta));
   auto lock = MapFile::create(out, false, *meta);
   if (!lock) return forward_error(std::move(lock));
