@@ -27,8 +27,8 @@ class OpenFile {
   /// Not waiting for the other end, should the path have become a pipe in the meantime.
   explicit OpenFile(const std::filesystem::path& path)
       : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
+  OpenFile(OpenFile&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  OpenFile& operator=(OpenFile&&) = delete;
   ~OpenFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
@@ -64,11 +64,22 @@ Status check_mode(const std::string& where, mode_t mode) {
               S_ISDIR(mode) ? "name a file in it" : "write its content into a file, and name that");
 }
 
-/// `status` becomes that of what was opened, which need not be what was asked about before.
-Status check_opened(const OpenFile& file, const std::string& where, struct stat& status) {
+/// A regular file, opened, and how long it says that it is.
+struct RegularFile {
+  OpenFile file;
+  std::size_t told_bytes;
+};
+
+/// Asked twice: what is opened need not be what was asked about before.
+Expected<RegularFile> open_regular(const std::filesystem::path& path) {
+  if (auto usable = check_regular_file(path); !usable) return forward_error(std::move(usable));
+  OpenFile file(path);
+  struct stat status {};
   if (file.descriptor() < 0 || ::fstat(file.descriptor(), &status) != 0)
-    return refused_by_system(where, errno);
-  return check_mode(where, status.st_mode);
+    return refused_by_system(path.string(), errno);
+  if (auto usable = check_mode(path.string(), status.st_mode); !usable)
+    return forward_error(std::move(usable));
+  return RegularFile{std::move(file), static_cast<std::size_t>(std::max<off_t>(status.st_size, 0))};
 }
 
 /// Bytes read into `content` from `have` on; negative with the reason in errno.
@@ -89,12 +100,9 @@ Status check_regular_file(const std::filesystem::path& path) {
 
 Expected<std::string> read_file(const std::filesystem::path& path, std::size_t most_bytes) {
   const std::string where = path.string();
-  struct stat status {};
-  if (auto usable = check_regular_file(path); !usable) return forward_error(std::move(usable));
-  const OpenFile file(path);
-  if (auto usable = check_opened(file, where, status); !usable)
-    return forward_error(std::move(usable));
-  const auto told_bytes = static_cast<std::size_t>(std::max<off_t>(status.st_size, 0));
+  const auto opened = open_regular(path);
+  if (!opened) return tl::make_unexpected(opened.error());
+  const auto& [file, told_bytes] = *opened;
   if (told_bytes > most_bytes) return too_long(where, most_bytes);
 
   // Not trusting the size: a file may grow while it is read, and those of /proc tell none.
@@ -112,17 +120,13 @@ Expected<std::string> read_file(const std::filesystem::path& path, std::size_t m
 }
 
 Expected<std::string> read_head(const std::filesystem::path& path, std::size_t most_bytes) {
-  const std::string where = path.string();
-  struct stat status {};
-  if (auto usable = check_regular_file(path); !usable) return forward_error(std::move(usable));
-  const OpenFile file(path);
-  if (auto usable = check_opened(file, where, status); !usable)
-    return forward_error(std::move(usable));
+  const auto opened = open_regular(path);
+  if (!opened) return tl::make_unexpected(opened.error());
   std::string head(most_bytes, '\0');
   std::size_t have = 0;
   for (ssize_t got = 1; got > 0 && have < most_bytes; have += static_cast<std::size_t>(got)) {
-    got = read_some(file, head, have);
-    if (got < 0) return refused_by_system(where, errno);
+    got = read_some(opened->file, head, have);
+    if (got < 0) return refused_by_system(path.string(), errno);
   }
   head.resize(have);
   return head;
