@@ -100,8 +100,7 @@ class Witness {
     Eigen::Vector3d p =
         T_world_body_.translation() + Eigen::Vector3d(r * std::cos(a), r * std::sin(a), 0);
     p.z() = random.real(low_ - kOptions.margin_m, high_ + kOptions.margin_m);
-    const Occupancy state =
-        kOptions.thresholds.classify(map_.log_odds(voxel_containing(p, kVoxel_m)));
+    const Occupancy state = map_.occupancy(p);
     const Sight sight = seen_from(T_world_body_, p);
     if (state == Occupancy::kOccupied) check_matter(sight);
     const bool is_level_with_body = p.z() >= low_ && p.z() <= high_;

@@ -22,7 +22,6 @@ void take_body(const BodyBox& box, mavlink::RingOptions& ring) {
 mavlink::RingOptions ring_options(const MapperConfig& config, const RigOptions* rig) {
   mavlink::RingOptions ring;
   ring.max_m = 0.5 * std::min(config.map.size_m.x(), config.map.size_m.y());
-  ring.thresholds = config.occupancy;
   if (rig != nullptr && rig->body_box) take_body(*rig->body_box, ring);
   return ring;
 }

@@ -46,7 +46,7 @@ class Look {
  public:
   Look(const MapSnapshot& map, const Transform<World, Body>& T_world_body,
        const RingOptions& options)
-      : map_(map), options_(options), voxel_m_(map.voxel_m()) {
+      : map_(map), thresholds_(map.scale().thresholds), options_(options), voxel_m_(map.voxel_m()) {
     const Eigen::Vector3d p = T_world_body.translation();
     const Eigen::Vector3d nose = T_world_body.rotation() * Eigen::Vector3d::UnitX();
     x_m_ = p.x();
@@ -92,10 +92,10 @@ class Look {
       if (must_be_known) bits.unknown = ~std::uint64_t{0};
       return;
     }
-    const std::uint64_t occupied = cells_at_least(*block, layer, options_.thresholds.occupied_from);
+    const std::uint64_t occupied = cells_at_least(*block, layer, thresholds_.occupied_from);
     bits.occupied |= occupied;
     if (must_be_known)
-      bits.unknown |= cells_at_least(*block, layer, options_.thresholds.free_below) & ~occupied;
+      bits.unknown |= cells_at_least(*block, layer, thresholds_.free_below) & ~occupied;
   }
 
   void book_column(int block_x, int block_y) {
@@ -146,6 +146,7 @@ class Look {
   }
 
   const MapSnapshot& map_;
+  OccupancyThresholds thresholds_;
   const RingOptions& options_;
   double voxel_m_;
   double x_m_ = 0, y_m_ = 0, heading_rad_ = 0;

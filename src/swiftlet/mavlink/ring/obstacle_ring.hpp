@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "swiftlet/base/frame_of.hpp"
-#include "swiftlet/map/log_odds.hpp"
 #include "swiftlet/map/map_snapshot.hpp"
 
 namespace swiftlet::mavlink {
@@ -27,7 +26,6 @@ struct RingOptions {
   /// Cells that are unknown nearer than this say nothing: no camera sees so near, and the vehicle
   /// itself was there.
   double blind_m = 0.8;
-  OccupancyThresholds thresholds{};
 };
 
 /// What lies in one direction; infinite if there is none within `max_m`. [m]
@@ -46,7 +44,8 @@ struct ObstacleRing {
 /// Looks around. A cell is in the way if it lies at the height of the body or of the margin around
 /// it; a tilted body is taller. It counts for each direction that it covers a part of, at its point
 /// nearest to the body's origin, horizontally. Only at the height of the body itself, without the
-/// margin, must space be known to be called so. What lies outside the map's window is unknown.
+/// margin, must space be known to be called so. What lies outside the map's window is
+/// unknown, and what is occupied the map's own thresholds say.
 ///
 /// The directions are those of the nose in the horizontal plane: autopilots turn with the heading
 /// alone and push the vehicle sideways, however it tilts.
