@@ -102,9 +102,7 @@ class WaySearch {
     const double needed_m = limits_.clearance_m + kSlack_m;
     double least_m = needed_m + kStep_m;
     world_.search_near(p.cast<float>(), static_cast<float>(least_m), [&](const Triangle& t) {
-      const double distance_m =
-          distance(p, {t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>()});
-      least_m = std::min(least_m, distance_m);
+      least_m = std::min(least_m, distance(p, in_double(t)));
       return least_m < needed_m ? 0.0F : static_cast<float>(least_m);
     });
     return static_cast<float>(least_m - needed_m);

@@ -82,10 +82,6 @@ bool is_inside_any(const Scene& scene, Nanoseconds now, const Vector3d& p_world)
          });
 }
 
-Triangle3d in_double(const Triangle& t) {
-  return {t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>()};
-}
-
 // Rounding to floats in the search must not lose the nearest triangle.
 constexpr double kRounding_m = 1e-4;
 
