@@ -31,13 +31,12 @@ std::optional<std::size_t> expected_frames(const FrameSource& source,
 
 }  // namespace
 
-MapMeta flight_meta(const SourceInfo& info, const MapperConfig& config,
-                    const std::string& program_version) {
+MapMeta flight_meta(const SourceInfo& info, const MapperConfig& config) {
   return {{"config", config_to_yaml(config)},
           {"source", info.uri},
           {"native_up_axis", info.native_up_axis},
           {"intrinsics", text_of(info.intrinsics)},
-          {"program_version", program_version},
+          {"program_version", SWIFTLET_VERSION},
           {"logodds_per_step", fmt::format("{}", config.integrate.logodds_per_step)},
           {"created", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}};
 }
@@ -50,6 +49,8 @@ Status fly(FrameSource& source, MappingSession& session, const FlightOptions& op
     return is_asked_to_stop(options);
   });
   MappingSummary& summary = session.summary();
+  summary.source = source.info().uri;
+  summary.intrinsics = source.info().intrinsics;
   DepthDoubt doubt(source.info().assumed_depth_unit_m);
   Status outcome = Done{};
   bool is_loss_told = false;
@@ -102,13 +103,11 @@ Error nothing_mapped(const MappingSummary& summary, const MapperConfig& config) 
 
 Expected<MappingSummary> map_into_file(FrameSource& source, LoadedConfig config, SessionOptions how,
                                        const FlightOptions& options) {
-  const SourceInfo info = source.info();
+  const SourceInfo& info = source.info();
   adopt_baseline(info.baseline_m, config);
-  if (how.meta.empty()) how.meta = flight_meta(info, config.mapper, "library");
+  if (how.meta.empty()) how.meta = flight_meta(info, config.mapper);
   auto session = MappingSession::create(config.mapper, how);
   if (!session) return forward_error(std::move(session));
-  (*session)->summary().source = info.uri;
-  (*session)->summary().intrinsics = info.intrinsics;
   Status flown = fly(source, **session, options);
   if (!(*session)->has_map()) {
     if (!flown) return forward_error(std::move(flown));

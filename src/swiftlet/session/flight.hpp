@@ -28,9 +28,7 @@ struct FlightOptions {
 };
 
 /// Lines of `meta` for a map made of a source with a config (docs/formats/map_file.md).
-/// `program_version`: of the program that maps.
-[[nodiscard]] MapMeta flight_meta(const SourceInfo& info, const MapperConfig& config,
-                                  const std::string& program_version);
+[[nodiscard]] MapMeta flight_meta(const SourceInfo& info, const MapperConfig& config);
 
 /// Maps frame by frame to the end of the source, the limit, an error or stop(); the summary of the
 /// session tells of it. Saves nothing. Errors: those of the source and of the session.

@@ -81,7 +81,7 @@ SessionOptions session_options(const MapOptions& options, const SourceInfo& info
   session.store.policy = options.store == "keep" ? StorePolicy::kKeep : StorePolicy::kDrop;
   session.store.max_bytes = options.max_bytes;
   session.store.overwrite = options.overwrite;
-  session.meta = flight_meta(info, config, SWIFTLET_VERSION);
+  session.meta = flight_meta(info, config);
   return session;
 }
 
@@ -91,7 +91,6 @@ FlightOptions flight_options(const MapOptions& options, Progress& progress,
   flight.frames = options.frames;
   flight.stop = [&] { return interrupt.is_interrupted(); };
   flight.progress = [&](std::size_t done, auto) { progress.update(done); };
-  flight.tell_events = [&](const auto& events) { tell_events(events, progress); };
   flight.tell_loss = [&] {
     progress.tell("the disk refuses blocks of the map; the flight goes on without them");
   };
@@ -177,8 +176,6 @@ Faults map(const MapOptions& options) {
   how.observer = &(*onlookers)->all;
   auto session = MappingSession::create(config->mapper, how);
   if (!session) return fault_of(std::move(session));
-  (*session)->summary().source = info.uri;
-  (*session)->summary().intrinsics = info.intrinsics;
   const InterruptGuard interrupt;  // until the map is saved
   Status flight = fly_and_tell(**source, **session, options, interrupt, **onlookers);
   if ((*onlookers)->autopilot) (*onlookers)->autopilot->finish();
