@@ -15,6 +15,7 @@
 #include <mutex>
 #include <thread>
 
+#include "support/no_threads.hpp"
 #include "support/temp_folder.hpp"
 #include "swiftlet/mavlink/links/link_thread.hpp"
 
@@ -156,6 +157,17 @@ TEST(LinkThread, tells_of_a_port_that_is_taken) {
   EXPECT_EQ(second.error().code, ErrorCode::kIo);
   EXPECT_NE(second.error().text().find(address), std::string::npos);
 }
+
+#ifdef SWIFTLET_CAN_LACK_THREADS
+TEST(LinkThread, says_so_if_the_system_has_no_thread_for_it) {
+  CountingUser user;
+  const auto options = links("udp:127.0.0.1:" + std::to_string(free_port()));
+  const test::NoThreads none;
+  const auto started = LinkThread::start(options, user);
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error().code, ErrorCode::kOutOfMemory);
+}
+#endif
 
 TEST(LinkThread, opens_a_tcp_link_when_the_other_side_comes_and_again_when_it_has_gone) {
   const std::uint16_t port = free_port(SOCK_STREAM);

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <thread>
 
+#include "swiftlet/base/start_thread.hpp"
 #include "swiftlet/mavlink/links/link_private.hpp"
 #endif
 
@@ -58,13 +59,16 @@ class AsioLinks final : public LinkThread, private FrameOutlet {
     return Done{};
   }
 
-  void run() {
-    thread_ = std::thread([this] {
+  Status run() {
+    auto thread = start_thread("--mavlink", [this] {
       give_way_to_the_mapper();
       for (const auto& link : links_) link->start();
       tick();
       io_.run();
     });
+    if (!thread) return forward_error(std::move(thread));
+    thread_ = std::move(*thread);
+    return Done{};
   }
 
   LinkTally tally(std::size_t link) const override {
@@ -126,7 +130,7 @@ Expected<std::unique_ptr<LinkThread>> LinkThread::start(const LinkOptions& optio
 #if SWIFTLET_HAS_MAVLINK
   auto links = std::make_unique<AsioLinks>(options, user);
   if (auto open = links->open(); !open) return forward_error(std::move(open));
-  links->run();
+  if (auto running = links->run(); !running) return forward_error(std::move(running));
   return links;
 #else
   (void)user;
