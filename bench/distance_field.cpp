@@ -3,7 +3,7 @@
 //
 // What a distance field costs in flight: swiftlet_distance_bench [SOURCE [FRAMES]]
 //
-// Maps a source in cells of 10 and 5 cm, in the default window, moves included, and after every
+// Maps a source in voxels of 10 and 5 cm, in the default window, moves included, and after every
 // frame brings up to date a field for each kind of obstacles; beside it, now and then, one from
 // scratch, and, where it is installed, dynamicEDT3D (Lau et al. 2013) on the same frames. That one
 // has no moving window: it keeps the box where the window was first, and what leaves the window
@@ -165,14 +165,14 @@ struct Contest {
     fmt::print("   {:8.2f} {:8.2f} {:8.2f}   {:6.1f} {:6.1f}", median,
                quantile(peer->times_ms, 0.99), most, median / quantile(times_ms, 0.5),
                most / quantile(times_ms, 1.0));
-    fmt::print("   {} of {} cells differ", differing(), kCompared);
+    fmt::print("   {} of {} voxels differ", differing(), kCompared);
 #endif
     fmt::print("\n");
   }
 
 #if SWIFTLET_HAS_EDT3D
   static constexpr int kCompared = 2000;
-  /// Cells in which the two disagree, of those that are within reach of no face of either box.
+  /// Voxels in which the two disagree, of those that are within reach of no face of either box.
   [[nodiscard]] int differing() const {
     std::mt19937 random(1);
     const VoxelBox ours = voxel_box(field.box()), theirs = voxel_box(peer->box());

@@ -78,7 +78,7 @@ void sweep_paths(benchmark::State& state, const MapSnapshot& map, const SweepPol
       benchmark::Counter(static_cast<double>(clear), benchmark::Counter::kAvgIterations);
 }
 
-/// A cell blocks, but is not the end of it: what is unknown stops the body at the first contact.
+/// A voxel blocks, but is not the end of it: what is unknown stops the body at the first contact.
 void sweep_apartment(benchmark::State& state) {
   if (mapped_flight().frames.empty()) return state.SkipWithError("the simulated rig was not built");
   sweep_paths(state, *mapped_flight().map, {});
@@ -97,7 +97,7 @@ MapSnapshot corridor(double half_width_m) {
     for (int i = 0; i < kBlockVoxels; ++i) {
       const Eigen::Vector3d p = centre_of(voxel_at(b, i), 0.1);
       const bool is_wall = std::abs(p.y() - 0.5 * p.x()) > half_width_m;
-      block.cells[static_cast<std::size_t>(i)] = is_wall ? 230 : 20;
+      block.voxels[static_cast<std::size_t>(i)] = is_wall ? 230 : 20;
     }
   });
   return *map->snapshot({1});
@@ -135,7 +135,7 @@ void frontier_in_flight(benchmark::State& state) {
     state.ResumeTiming();
     frontier.update(*map);
   }
-  state.counters["cells"] = static_cast<double>(frontier.cell_count());
+  state.counters["voxels"] = static_cast<double>(frontier.voxel_count());
 }
 void frontier_from_scratch(benchmark::State& state) {
   if (mapped_flight().frames.empty()) return state.SkipWithError("the simulated rig was not built");

@@ -18,7 +18,7 @@ constexpr double kBlock_m = kVoxel_m * kBlockEdge;
 
 void fill(RollingMap& map, const BlockWindow& window) {
   for_each_block(window, [&](const BlockIndex& b) {
-    if (map.find(b) == nullptr) map.writable(b).cells.fill(20);
+    if (map.find(b) == nullptr) map.writable(b).voxels.fill(20);
   });
 }
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "swiftlet/pipeline/mapper.hpp"
-#include "swiftlet/query/cell_counts.hpp"
+#include "swiftlet/query/voxel_counts.hpp"
 #include "swiftlet/source/sources.hpp"
 
 namespace {
@@ -29,9 +29,9 @@ swiftlet::Status map_recording(const char* address) {
   }
 
   const auto map = mapper->snapshot();
-  const auto cells = swiftlet::count_cells(*map);
-  std::printf("%llu frames: %zu free cells, %zu occupied\n",
-              static_cast<unsigned long long>(mapper->frame_count()), cells.free, cells.occupied);
+  const auto voxels = swiftlet::count_voxels(*map);
+  std::printf("%llu frames: %zu free voxels, %zu occupied\n",
+              static_cast<unsigned long long>(mapper->frame_count()), voxels.free, voxels.occupied);
   return swiftlet::Done{};
 }
 

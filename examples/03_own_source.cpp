@@ -42,7 +42,7 @@ int main() {
   }
 
   const auto wall = swiftlet::voxel_containing({5.1, 0.1, 0.1}, mapper->map().voxel_m());
-  std::printf("%llu frames, the wall's cell is at %d of 255\n",
+  std::printf("%llu frames, the wall's voxel is at %d of 255\n",
               static_cast<unsigned long long>(mapper->frame_count()), mapper->map().log_odds(wall));
   return mapper->map().log_odds(wall) > 180 ? 0 : 1;
 }

@@ -16,9 +16,9 @@ void map_a_wall(swiftlet::RollingMap& map) {
   for (int x = -20; x <= 10; ++x) {
     for (int y = -15; y <= 15; ++y) {
       for (int z = -15; z <= 15; ++z) {
-        const swiftlet::VoxelIndex cell{x, y, z};
-        map.writable(swiftlet::block_of(cell)).cells[swiftlet::offset_in_block(cell)] =
-            x == 10 ? swiftlet::kOccupiedCell : swiftlet::kFreeCell;
+        const swiftlet::VoxelIndex voxel{x, y, z};
+        map.writable(swiftlet::block_of(voxel)).voxels[swiftlet::offset_in_block(voxel)] =
+            x == 10 ? swiftlet::kOccupiedVoxel : swiftlet::kFreeVoxel;
       }
     }
   }
@@ -47,8 +47,8 @@ int main() {
     }
     const Eigen::Vector3d here(0.45, 0.05, 0.05);
     const auto sample = (*field)->sample(here, swiftlet::Obstacles::kNotFree);
-    const auto cell = swiftlet::voxel_containing(here, map->voxel_m());
-    const auto wall = (*field)->closest_obstacle(cell, swiftlet::Obstacles::kNotFree);
+    const auto voxel = swiftlet::voxel_containing(here, map->voxel_m());
+    const auto wall = (*field)->closest_obstacle(voxel, swiftlet::Obstacles::kNotFree);
     if (sample.status != swiftlet::DistanceStatus::kKnown || !wall) return 1;
     const Eigen::Vector3d at = swiftlet::centre_of(*wall, map->voxel_m());
     std::printf("frame %d: %.2f m to the wall at %.2f %.2f %.2f; fly along %.2f %.2f %.2f\n",

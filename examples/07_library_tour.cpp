@@ -31,11 +31,11 @@ int main(int argc, char** argv) {
   const VoxelBox box = voxel_box_between(at - half, at + half, map.voxel_m());
   std::vector<float> probabilities(box.voxel_count());
   copy_box(map, box, std::span(probabilities));
-  std::printf("%zu frames; p = %.2f at the start; clear for %.2f m; %zu of %zu cells free\n",
-              flown.integrated(), map.probability(at), ahead.distance_m, count_cells(map, box).free,
-              probabilities.size());
+  std::printf("%zu frames; p = %.2f at the start; clear for %.2f m; %zu of %zu voxels free\n",
+              flown.integrated(), map.probability(at), ahead.distance_m,
+              count_voxels(map, box).free, probabilities.size());
 
-  value_of(render::write_png(value_of(render::draw_view("top", map, {})), out + ".png"));
+  value_of(render::write_png(value_of(render::draw_projection("top", map, {})), out + ".png"));
   const auto report =
       value_of(eval::score_source({address, config.mapper, {"precision_weighted"}, 40}));
   for (const eval::ScoreRow& row : report.rows)

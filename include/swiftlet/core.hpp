@@ -42,11 +42,11 @@
 
 // What can be asked of any of them.
 #include "swiftlet/query/box_query.hpp"
-#include "swiftlet/query/cell_counts.hpp"
 #include "swiftlet/query/known_voxels.hpp"
 #include "swiftlet/query/map_summary.hpp"
 #include "swiftlet/query/occupancy_query.hpp"
 #include "swiftlet/query/ray_query.hpp"
+#include "swiftlet/query/voxel_counts.hpp"
 
 // What a planner asks of a snapshot.
 #include "swiftlet/query/distance/distance_field.hpp"

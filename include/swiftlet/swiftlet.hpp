@@ -35,8 +35,8 @@
 #include "swiftlet/store/stream/block_store.hpp"
 
 // A map as a picture.
-#include "swiftlet/render/map_view.hpp"
 #include "swiftlet/render/picture.hpp"
+#include "swiftlet/render/projection.hpp"
 
 // Is the map right, and fast; what the camera is worth; what is wrong with the rig.
 #include "swiftlet/doctor/doctor_exam.hpp"

@@ -33,9 +33,9 @@ class Bench : public ::testing::Test {
   TempFolder folder_;
 };
 
-const json* row_of(const json& rows, double cell_m, const std::string& integrator, int threads) {
+const json* row_of(const json& rows, double voxel_m, const std::string& integrator, int threads) {
   for (const json& row : rows) {
-    if (row.at("cell_m") == cell_m && row.at("integrator") == integrator &&
+    if (row.at("voxel_m") == voxel_m && row.at("integrator") == integrator &&
         row.at("threads") == threads && row.at("workload") == "7scenes:rec") {
       return &row;
     }
@@ -43,16 +43,16 @@ const json* row_of(const json& rows, double cell_m, const std::string& integrato
   return nullptr;
 }
 
-TEST_F(Bench, has_a_row_for_every_contender_cell_size_and_number_of_threads) {
+TEST_F(Bench, has_a_row_for_every_contender_voxel_size_and_number_of_threads) {
   const Ended ended = bench({"7scenes:rec", "--voxel", "0.2,0.1", "--threads", "1,3", "--json"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   const json rows = json::parse(ended.out).at("rows");
-  for (const double cell_m : {0.2, 0.1}) {
-    EXPECT_NE(row_of(rows, cell_m, "projective", 1), nullptr);
-    EXPECT_NE(row_of(rows, cell_m, "projective", 3), nullptr);
-    EXPECT_NE(row_of(rows, cell_m, "rays", 1), nullptr);
+  for (const double voxel_m : {0.2, 0.1}) {
+    EXPECT_NE(row_of(rows, voxel_m, "projective", 1), nullptr);
+    EXPECT_NE(row_of(rows, voxel_m, "projective", 3), nullptr);
+    EXPECT_NE(row_of(rows, voxel_m, "rays", 1), nullptr);
     for (const char* name : {"octomap_plain", "octomap_discretised"}) {
-      EXPECT_EQ(row_of(rows, cell_m, name, 1) != nullptr, SWIFTLET_HAS_OCTOMAP == 1);
+      EXPECT_EQ(row_of(rows, voxel_m, name, 1) != nullptr, SWIFTLET_HAS_OCTOMAP == 1);
     }
   }
   constexpr std::size_t kThesisSetting = 2;  // n = 8: projective and rays
@@ -68,7 +68,7 @@ TEST_F(Bench, every_row_has_all_of_the_schema_and_times_that_agree) {
   }
   EXPECT_GE(result.at("machine").at("cores"), 1);
   const std::set<std::string> schema{"workload",
-                                     "cell_m",
+                                     "voxel_m",
                                      "integrator",
                                      "threads",
                                      "frames",

@@ -47,7 +47,7 @@ TEST(Calibrate, what_it_writes_is_a_config_with_which_the_wall_is_flat) {
                 folder.path())
                 .exit_code,
             0);
-  // Cells of 5 cm: the wall at x = 3 m, bent, would reach 19 cm farther.
+  // Voxels of 5 cm: the wall at x = 3 m, bent, would reach 19 cm farther.
   const auto bounds = [&](std::vector<std::string> options) {
     std::vector<std::string> arguments{
         "map", kBent, "-o", "wall.swl", "--overwrite", "--set", "map.voxel_m=0.05"};
@@ -59,7 +59,7 @@ TEST(Calibrate, what_it_writes_is_a_config_with_which_the_wall_is_flat) {
   };
   const auto bent = bounds({}), straight = bounds({"--config", "distortion.yaml"});
   EXPECT_NE(bent, straight);
-  EXPECT_LT(int{straight.at("cells").at("occupied")}, int{bent.at("cells").at("occupied")});
+  EXPECT_LT(int{straight.at("voxels").at("occupied")}, int{bent.at("voxels").at("occupied")});
 }
 
 TEST(Calibrate, estimates_the_distance_if_it_is_not_told) {

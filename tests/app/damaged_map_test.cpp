@@ -28,7 +28,7 @@ void write_map(const std::filesystem::path& path) {
   BlockMap map({0.1, {}, 1});
   for (int i = 0; i < kBlocks; ++i) {
     VoxelBlock block;
-    block.cells.fill(static_cast<QuantizedLogOdds>(i % 2 == 0 ? 250 : 10));
+    block.voxels.fill(static_cast<QuantizedLogOdds>(i % 2 == 0 ? 250 : 10));
     map.put({i % 8, i / 8, 0}, block);
   }
   ASSERT_TRUE(save_map(path, map));

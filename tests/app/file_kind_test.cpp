@@ -59,7 +59,7 @@ TEST(FileKind, is_told_by_what_is_in_the_file_whatever_its_name) {
 TEST(FileKind, maps_of_both_kinds_are_opened_under_any_name_and_others_are_named) {
   const test::TempFolder folder;
   BlockMap map({0.1, {}, 1});
-  map.set({}, kOccupiedCell);
+  map.set({}, kOccupiedVoxel);
   ASSERT_TRUE(save_map(folder / "map.bt", map));
   EXPECT_EQ(read_whole_map((folder / "map.bt").string())->block_count(), 1U);
   std::string small = kOctomap;  // one leaf of a whole eighth of the world is too much to lay out

@@ -26,7 +26,7 @@ class FlightOutput : public ProgramFixture {};
 
 TEST_F(FlightOutput, of_a_flight_that_was_cut_off_is_told_so_by_info) {
   BlockMap map({0.1, {}, 1});
-  map.set({}, kUnknownCell);
+  map.set({}, kUnknownVoxel);
   for (const std::string flight : {"under way", "saved"}) {
     ASSERT_TRUE(save_map(folder_ / (flight + ".swl"), map, {{"flight", flight}}));
   }

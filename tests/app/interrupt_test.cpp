@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 
 /// Three thousand frames: a flight so long that the program is surely under way when something
-/// comes in between. With fine pixels and cells they take seconds, the first a millisecond.
+/// comes in between. With fine pixels and voxels they take seconds, the first a millisecond.
 class LongFlight : public ::testing::Test {
  protected:
   static constexpr int kFrames = 3000;

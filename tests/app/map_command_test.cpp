@@ -39,8 +39,8 @@ TEST_F(MapCommand, progress_is_plain_lines_in_a_pipe_and_standard_output_stays_c
   const json summary = json::parse(ended.out);
   EXPECT_EQ(summary.at("frames"), 3);
   EXPECT_EQ(summary.at("dropped"), json::object());
-  EXPECT_GT(summary.at("cells").at("occupied"), 0);
-  EXPECT_GT(summary.at("cells").at("free"), 0);
+  EXPECT_GT(summary.at("voxels").at("occupied"), 0);
+  EXPECT_GT(summary.at("voxels").at("free"), 0);
   EXPECT_GE(summary.at("latency_ms").at("p99"), summary.at("latency_ms").at("p50"));
   EXPECT_EQ(summary.at("map").at("path"), "a.swl");
   EXPECT_EQ(summary.at("map").at("bytes"), std::filesystem::file_size(folder_ / "a.swl"));

@@ -20,8 +20,8 @@ BlockMap random_copy(test::Random& random, std::size_t count) {
   BlockMap map({0.05, {}, 77});
   while (map.block_count() < count) {
     VoxelBlock block;
-    for (QuantizedLogOdds& cell : block.cells)
-      cell = static_cast<QuantizedLogOdds>(random.integer(0, 255));
+    for (QuantizedLogOdds& voxel : block.voxels)
+      voxel = static_cast<QuantizedLogOdds>(random.integer(0, 255));
     const auto place = [&] { return random.integer(-100'000, 100'000); };
     map.put({place(), place(), place()}, block);
   }

@@ -66,7 +66,7 @@ TEST_F(Program, wrong_usage_is_exit_code_2) {
   expect_refusal(swiftlet({"map", "magic:rec"}), 2, "unknown source 'magic'");
   expect_refusal(swiftlet({"list", "magic"}), 2, "KIND");
   expect_refusal(swiftlet({"list", "rays", "--markdown"}), 2, "list parameters --markdown");
-  expect_refusal(swiftlet({"render", "a.swl", "-o", "a.png", "--view", "magic"}), 2, "slice");
+  expect_refusal(swiftlet({"render", "a.swl", "-o", "a.png", "--projection", "magic"}), 2, "slice");
   expect_refusal(swiftlet({"export", "a.swl"}), 2, "--to is required");
   EXPECT_THAT(left_behind("a."), IsEmpty());
 }
@@ -76,7 +76,7 @@ TEST_F(Program, lists_every_kind_of_thing_for_people_and_for_machines) {
   EXPECT_EQ(text.exit_code, 0);
   const json all = json::parse(swiftlet({"list", "--json"}).out);
   for (const char* kind : {"sources", "scenes", "random", "steps", "models", "rays", "integrators",
-                           "exporters", "views", "parameters"}) {
+                           "exporters", "projections", "parameters"}) {
     EXPECT_THAT(text.out, HasSubstr(kind));
     ASSERT_FALSE(all.at(kind).empty()) << kind;
     for (const auto& line : all.at(kind)) {
@@ -109,9 +109,9 @@ TEST_F(Program, a_flight_goes_on_if_its_progress_cannot_be_shown) {
 TEST_F(Program, draws_every_view_and_exports_every_format_that_is_built) {
   ASSERT_EQ(map_to("a.swl").exit_code, 0);
   const json all = json::parse(swiftlet({"list", "--json"}).out);
-  for (const auto& view : all.at("views")) {
-    const std::string name = view.at("name");
-    const Ended ended = swiftlet({"render", "a.swl", "-o", name + ".png", "--view", name});
+  for (const auto& projection : all.at("projections")) {
+    const std::string name = projection.at("name");
+    const Ended ended = swiftlet({"render", "a.swl", "-o", name + ".png", "--projection", name});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(folder_ / (name + ".png")), StartsWith("\x89PNG"));
   }

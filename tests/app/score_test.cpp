@@ -50,14 +50,14 @@ TEST_F(Score, a_short_flight_before_a_wall_is_judged_by_the_truth) {
   const json report = json::parse(ended.out);
   EXPECT_THAT(report.at("maps"), ElementsAre("projective", "rays", "precision_weighted"));
   for (const std::string map : {"projective", "rays", "precision_weighted"}) {
-    EXPECT_EQ(value_of(report, "occupied recall, within 1 cell", map), 1.0) << map;
-    EXPECT_EQ(value_of(report, "occupied precision, within 1 cell", map), 1.0) << map;
-    EXPECT_EQ(value_of(report, "phantom cells at the end", map), 0.0) << map;
-    // The cells before the wall may hold some of it: that model does not call them free.
+    EXPECT_EQ(value_of(report, "occupied recall, within 1 voxel", map), 1.0) << map;
+    EXPECT_EQ(value_of(report, "occupied precision, within 1 voxel", map), 1.0) << map;
+    EXPECT_EQ(value_of(report, "phantom voxels at the end", map), 0.0) << map;
+    // The voxels before the wall may hold some of it: that model does not call them free.
     EXPECT_GT(value_of(report, "free recall", map), map == "precision_weighted" ? 0.78 : 0.8)
         << map;
-    EXPECT_EQ(report.at("solid_cells_called_free").at(map).size(),
-              value_of(report, "solid cells called free", map));
+    EXPECT_EQ(report.at("solid_voxels_called_free").at(map).size(),
+              value_of(report, "solid voxels called free", map));
   }
 }
 
@@ -74,7 +74,7 @@ TEST_F(Score, a_truth_that_would_not_fit_is_refused_before_the_flight) {
   const Ended ended = swiftlet({"score", "sim:wall", "--maps", "projective", "--set",
                                 "map.voxel_m=0.005", "--set", "map.size_m=[2,2,2]"});
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("million cells; choose a larger map.voxel_m"));
+  EXPECT_THAT(ended.err, HasSubstr("million voxels; choose a larger map.voxel_m"));
 }
 
 #endif
@@ -88,9 +88,10 @@ TEST_F(Score, a_recording_is_judged_by_the_frames_that_were_left_out) {
   const json report = json::parse(ended.out);
   EXPECT_EQ(report.at("frames"), 10);
   EXPECT_EQ(report.at("scores").at(0).at("of"), 2 * 6 * 4) << "two frames, every fourth pixel";
-  EXPECT_EQ(value_of(report, "left-out readings that end within 1 cell of an occupied one", "rays"),
-            1.0);
-  EXPECT_EQ(value_of(report, "left-out rays blocked more than 2 cells before", "rays"), 0.0);
+  EXPECT_EQ(
+      value_of(report, "left-out readings that end within 1 voxel of an occupied one", "rays"),
+      1.0);
+  EXPECT_EQ(value_of(report, "left-out rays blocked more than 2 voxels before", "rays"), 0.0);
 }
 
 TEST_F(Score, a_recording_of_four_frames_has_nothing_to_predict) {
@@ -105,7 +106,7 @@ TEST_F(Score, a_map_that_does_not_exist_is_a_wrong_usage) {
   EXPECT_THAT(ended.err, HasSubstr("unknown integrator 'bonxai'; known are: rays, projective"));
 }
 
-TEST(ScoreText, tells_each_score_in_its_unit_and_the_worst_cells_first) {
+TEST(ScoreText, tells_each_score_in_its_unit_and_the_worst_voxels_first) {
   eval::ScoreReport report{"sim:a", 0.1, 10, 60.0, {"one", "two"}};
   using eval::Unit;
   eval::add_value(report, 0, "free", {"free precision", 0.5, Unit::kShare});

@@ -57,7 +57,7 @@ TEST(VisibleText, is_the_same_in_one_piece_or_in_many) {
 TEST(VisibleText, a_map_full_of_odd_bytes_is_told_as_text_and_as_json) {
   const test::TempFolder folder;
   BlockMap map({0.1, {}, 1});
-  map.set({}, kUnknownCell);
+  map.set({}, kUnknownVoxel);
   ASSERT_TRUE(save_map(folder / "a.swl", map,
                        {{"source", "\x1b[31mred\xff\x9b"}, {"k\x1b[2J\nforged", "v"}}));
   const auto text = test::run({"info", "a.swl"}, folder / ".");

@@ -149,7 +149,7 @@ TEST(ConfigFile, an_unknown_method_is_an_error_that_names_the_known_ones) {
 
 TEST(ConfigFile, a_window_that_cannot_be_is_an_error_with_its_line) {
   EXPECT_THAT(complaints("map:\n  voxel_m: 0.5\n  size_m: 0.1\n"),
-              ElementsAre(AllOf(StartsWith("f.yaml:3: map.size_m: "), HasSubstr("one cell"))));
+              ElementsAre(AllOf(StartsWith("f.yaml:3: map.size_m: "), HasSubstr("one voxel"))));
   EXPECT_THAT(complaints("map:\n  voxel_m: 0.01\n  size_m: 1500\n"),  // about 3 PB
               ElementsAre(AllOf(StartsWith("f.yaml:3: map.size_m: "), HasSubstr("GiB"))));
 }

@@ -26,11 +26,11 @@ int main() {
 
   map->recentre(T_world_body->translation(), nullptr);
   const VoxelIndex wall = voxel_containing(p_world + Eigen::Vector3d::Constant(0.05), 0.1);
-  map->writable(block_of(wall)).cells[offset_in_block(wall)] = kOccupiedCell;
+  map->writable(block_of(wall)).voxels[offset_in_block(wall)] = kOccupiedVoxel;
 
   const auto snapshot = map->snapshot({1});
-  const bool is_seen = snapshot && snapshot->log_odds(wall) == kOccupiedCell &&
-                       snapshot->log_odds({wall.x, wall.y, wall.z + 1}) == kUnknownCell;
+  const bool is_seen = snapshot && snapshot->log_odds(wall) == kOccupiedVoxel &&
+                       snapshot->log_odds({wall.x, wall.y, wall.z + 1}) == kUnknownVoxel;
   std::cout << "wall at " << p_world.transpose() << (is_seen ? " is on the map\n" : " was lost\n");
   return is_seen ? EXIT_SUCCESS : EXIT_FAILURE;
 }

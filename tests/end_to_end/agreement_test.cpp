@@ -27,9 +27,9 @@ void check_apartment(double voxel_m, int frames) {
   test::expect_agreement(agreement);
 }
 
-TEST(Apartment, agrees_with_rays_in_cells_of_20_cm) { check_apartment(0.2, 30); }
-TEST(Apartment, agrees_with_rays_in_cells_of_10_cm) { check_apartment(0.1, 30); }
-TEST(Apartment, agrees_with_rays_in_cells_of_5_cm) { check_apartment(0.05, 20); }
+TEST(Apartment, agrees_with_rays_in_voxels_of_20_cm) { check_apartment(0.2, 30); }
+TEST(Apartment, agrees_with_rays_in_voxels_of_10_cm) { check_apartment(0.1, 30); }
+TEST(Apartment, agrees_with_rays_in_voxels_of_5_cm) { check_apartment(0.05, 20); }
 
 }  // namespace
 }  // namespace swiftlet

@@ -2,9 +2,9 @@
 // Copyright the Swiftlet authors
 
 // The thesis's obstacle experiments (method 10, figs 4.6 and 4.9) on the simulated rig, noise and
-// all: a box 2 m ahead, its middle on the boundary of two cells, a wall behind. Every pixel is used
-// (depth.downsample = 1): the reduction to the nearest of 8 x 8 widens a box by up to 8 pixels, 4
-// cm at 2 m, which is more than the 3.5 cm in question.
+// all: a box 2 m ahead, its middle on the boundary of two voxels, a wall behind. Every pixel is
+// used (depth.downsample = 1): the reduction to the nearest of 8 x 8 widens a box by up to 8
+// pixels, 4 cm at 2 m, which is more than the 3.5 cm in question.
 
 #include <gtest/gtest.h>
 
@@ -17,9 +17,9 @@ namespace swiftlet {
 namespace {
 
 constexpr std::uint64_t kFrames = 100;
-constexpr int kFaceRow = 10;  // cells [2.0, 2.2) along x: the faces are at 2.1 m
+constexpr int kFaceRow = 10;  // voxels [2.0, 2.2) along x: the faces are at 2.1 m
 constexpr int kWallRow =
-    18;  // cells [3.6, 3.8): the wall is at 3.6 m, so it also fills the row before
+    18;  // voxels [3.6, 3.8): the wall is at 3.6 m, so it also fills the row before
 constexpr int kCameraLayer = 0;
 
 Mapper map_scene(const char* address) {
@@ -48,19 +48,19 @@ const Mapper& small_box() {
   return mapper;
 }
 
-/// The cells (y) of a row across the view that are in a state.
-std::vector<int> cells_in_row(const Mapper& mapper, int x, Occupancy state) {
+/// The voxels (y) of a row across the view that are in a state.
+std::vector<int> voxels_in_row(const Mapper& mapper, int x, Occupancy state) {
   std::vector<int> found;
   for (int y = -8; y < 8; ++y) {
-    const QuantizedLogOdds cell = mapper.map().log_odds({x, y, kCameraLayer});
-    if (mapper.config().occupancy.classify(cell) == state) found.push_back(y);
+    const QuantizedLogOdds voxel = mapper.map().log_odds({x, y, kCameraLayer});
+    if (mapper.config().occupancy.classify(voxel) == state) found.push_back(y);
   }
   return found;
 }
 
-TEST(LargeBox, is_exactly_two_occupied_cells_wide_and_its_outer_cells_stay_free) {
+TEST(LargeBox, is_exactly_two_occupied_voxels_wide_and_its_outer_voxels_stay_free) {
   const Mapper& mapper = large_box();
-  EXPECT_EQ(cells_in_row(mapper, kFaceRow, Occupancy::kOccupied), (std::vector<int>{-1, 0}));
+  EXPECT_EQ(voxels_in_row(mapper, kFaceRow, Occupancy::kOccupied), (std::vector<int>{-1, 0}));
   EXPECT_EQ(mapper.config().occupancy.classify(mapper.map().log_odds({kFaceRow, -2, kCameraLayer})),
             Occupancy::kFree);
   EXPECT_EQ(mapper.config().occupancy.classify(mapper.map().log_odds({kFaceRow, 1, kCameraLayer})),
@@ -71,7 +71,7 @@ TEST(LargeBox, hides_the_wall_behind_it_completely) {
   const Mapper& mapper = large_box();
   for (int x = kFaceRow + 2; x <= kWallRow + 2; ++x) {
     for (const int y : {-1, 0})
-      EXPECT_EQ(mapper.map().log_odds({x, y, kCameraLayer}), kUnknownCell) << x << " " << y;
+      EXPECT_EQ(mapper.map().log_odds({x, y, kCameraLayer}), kUnknownVoxel) << x << " " << y;
   }
 }
 
@@ -82,15 +82,15 @@ TEST(LargeBox, shows_the_thesis_s_profile_along_the_optical_axis) {
     EXPECT_LT(mapper.map().log_odds({x, 0, kCameraLayer}), 10) << x;
   EXPECT_GT(mapper.map().log_odds({kFaceRow, 0, kCameraLayer}), 245);
   for (int x = kFaceRow + 2; x < 25; ++x)
-    EXPECT_EQ(mapper.map().log_odds({x, 0, kCameraLayer}), kUnknownCell) << x;
+    EXPECT_EQ(mapper.map().log_odds({x, 0, kCameraLayer}), kUnknownVoxel) << x;
   // Outside the field of view (91 degrees) and behind the camera nothing is known.
-  EXPECT_EQ(mapper.map().log_odds({5, 10, kCameraLayer}), kUnknownCell);
-  EXPECT_EQ(mapper.map().log_odds({-3, 0, kCameraLayer}), kUnknownCell);
+  EXPECT_EQ(mapper.map().log_odds({5, 10, kCameraLayer}), kUnknownVoxel);
+  EXPECT_EQ(mapper.map().log_odds({-3, 0, kCameraLayer}), kUnknownVoxel);
 }
 
-TEST(SmallBox, is_exactly_two_occupied_cells_wide) {
+TEST(SmallBox, is_exactly_two_occupied_voxels_wide) {
   const Mapper& mapper = small_box();
-  EXPECT_EQ(cells_in_row(mapper, kFaceRow, Occupancy::kOccupied), (std::vector<int>{-1, 0}));
+  EXPECT_EQ(voxels_in_row(mapper, kFaceRow, Occupancy::kOccupied), (std::vector<int>{-1, 0}));
 }
 
 TEST(SmallBox, lets_the_wall_behind_be_partly_seen) {
@@ -100,7 +100,7 @@ TEST(SmallBox, lets_the_wall_behind_be_partly_seen) {
   // is narrower than they are.
   for (const int y : {-2, 1})
     EXPECT_GT(mapper.map().log_odds({kWallRow, y, kCameraLayer}), 180) << y;
-  EXPECT_EQ(mapper.map().log_odds({kWallRow, 0, kCameraLayer}), kUnknownCell);
+  EXPECT_EQ(mapper.map().log_odds({kWallRow, 0, kCameraLayer}), kUnknownVoxel);
   int seen_behind_the_box = 0;
   for (int x = kFaceRow + 2; x < kWallRow; ++x) {
     for (const int y : {-1, 0})

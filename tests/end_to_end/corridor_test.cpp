@@ -2,7 +2,7 @@
 // Copyright the Swiftlet authors
 
 // Sixty metres along a corridor and back, with the window of the issue of memory: 20 x 20 x 6 m in
-// 5 cm cells.
+// 5 cm voxels.
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@ constexpr double kDecay_s = 1.0;
 constexpr double kHasLeft_s = 15.5;
 
 struct Hall {
-  std::size_t while_there = 0;  ///< occupied cells of the air that he crosses, at most
+  std::size_t while_there = 0;  ///< occupied voxels of the air that he crosses, at most
   std::size_t after = 0;        ///< one decay_s and a frame after he has left
 };
 
@@ -30,8 +30,8 @@ std::size_t occupied_air(const Mapper& mapper) {
   for (VoxelIndex v = first; v.z <= last.z; ++v.z) {
     for (v.y = first.y; v.y <= last.y; ++v.y) {
       for (v.x = first.x; v.x <= last.x; ++v.x) {
-        const QuantizedLogOdds cell = mapper.map().log_odds(v);
-        count += mapper.config().occupancy.classify(cell) == Occupancy::kOccupied ? 1 : 0;
+        const QuantizedLogOdds voxel = mapper.map().log_odds(v);
+        count += mapper.config().occupancy.classify(voxel) == Occupancy::kOccupied ? 1 : 0;
       }
     }
   }

@@ -39,7 +39,7 @@ flight:
     - { at_m: [-0.8, 0.4, 1.2], yaw_deg: -300, leg_s: 4 }
 )";
 
-/// One flight through the room, mapped in 10 cm cells.
+/// One flight through the room, mapped in 10 cm voxels.
 struct Flown {
   Mapper mapper;
   FrameTally tally;
@@ -72,9 +72,9 @@ inline Flown fly_room(const std::string& options, std::string_view room = kRoom)
 
 /// How a map of the room compares with that of a flight without any fault or noise.
 struct Score {
-  std::size_t known = 0;     ///< cells that are free or occupied in both
+  std::size_t known = 0;     ///< voxels that are free or occupied in both
   std::size_t same = 0;      ///< of these, in the same class
-  std::size_t coverage = 0;  ///< cells that are free or occupied in the map
+  std::size_t coverage = 0;  ///< voxels that are free or occupied in the map
 
   [[nodiscard]] double accuracy() const {
     return known == 0 ? 0.0 : static_cast<double>(same) / static_cast<double>(known);

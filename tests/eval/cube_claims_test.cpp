@@ -12,21 +12,21 @@
 namespace swiftlet::eval {
 namespace {
 
-/// The same claims cell by cell, as the model.
+/// The same claims voxel by voxel, as the model.
 struct Model {
   CubeClaims cubes{0.1};
-  std::map<VoxelIndex, Occupancy> cells;
+  std::map<VoxelIndex, Occupancy> voxels;
 
-  /// Adds a cube unless a cell of it is taken.
+  /// Adds a cube unless a voxel of it is taken.
   void add(const VoxelIndex& first, std::int32_t edge, Occupancy state) {
     const auto each = [&](auto&& visit) {
       for (std::int32_t i = 0; i < edge * edge * edge; ++i)
         visit({first.x + i % edge, first.y + i / edge % edge, first.z + i / edge / edge});
     };
     bool is_taken = false;
-    each([&](const VoxelIndex& v) { is_taken = is_taken || cells.contains(v); });
+    each([&](const VoxelIndex& v) { is_taken = is_taken || voxels.contains(v); });
     if (is_taken) return;
-    each([&](const VoxelIndex& v) { cells[v] = state; });
+    each([&](const VoxelIndex& v) { voxels[v] = state; });
     cubes.add(first, edge, state);
   }
 };
@@ -42,29 +42,29 @@ Model random_claims(test::Random& random) {
   return model;
 }
 
-TEST(CubeClaims, compares_cubes_as_if_cell_by_cell) {
+TEST(CubeClaims, compares_cubes_as_if_voxel_by_voxel) {
   test::for_each_seed(100, [](test::Random& random) {
     const Model a = random_claims(random), b = random_claims(random);
     CubeClaims::Confusion expected{};
     const auto at = [](const Model& model, const VoxelIndex& v) {
-      const auto found = model.cells.find(v);
-      return static_cast<std::size_t>(found == model.cells.end() ? Occupancy::kUnknown
-                                                                 : found->second);
+      const auto found = model.voxels.find(v);
+      return static_cast<std::size_t>(found == model.voxels.end() ? Occupancy::kUnknown
+                                                                  : found->second);
     };
-    for (const auto& [v, state] : a.cells) ++expected[at(a, v)][at(b, v)];
-    for (const auto& [v, state] : b.cells) {
-      if (!a.cells.contains(v)) ++expected[at(a, v)][at(b, v)];
+    for (const auto& [v, state] : a.voxels) ++expected[at(a, v)][at(b, v)];
+    for (const auto& [v, state] : b.voxels) {
+      if (!a.voxels.contains(v)) ++expected[at(a, v)][at(b, v)];
     }
     EXPECT_EQ(compare_claims(a.cubes, b.cubes), expected);
   });
 }
 
 TEST(CubeClaims, compares_cubes_of_octomaps_whole_world_at_once) {
-  CubeClaims world(0.1), cell(0.1);
+  CubeClaims world(0.1), voxel(0.1);
   world.add({-32768, -32768, -32768}, 65536, Occupancy::kFree);
-  cell.add({32767, 0, -32768}, 1, Occupancy::kOccupied);
-  cell.add({2'000'000'000, -2'000'000'000, 0}, 1, Occupancy::kFree);  // beyond that world
-  const auto counts = compare_claims(world, cell);
+  voxel.add({32767, 0, -32768}, 1, Occupancy::kOccupied);
+  voxel.add({2'000'000'000, -2'000'000'000, 0}, 1, Occupancy::kFree);  // beyond that world
+  const auto counts = compare_claims(world, voxel);
   EXPECT_EQ(counts[0][2], 1U);
   EXPECT_EQ(counts[0][1], (std::uint64_t{1} << 48U) - 1);
   EXPECT_EQ(counts[1][0], 1U);

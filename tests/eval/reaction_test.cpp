@@ -12,12 +12,12 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr VoxelBox kOneCell{{0, 0, 0}, {0, 0, 0}};
+constexpr VoxelBox kOneVoxel{{0, 0, 0}, {0, 0, 0}};
 
-/// One cell, frame by frame: m matter, . looked through, _ not seen; then what the map claims:
+/// One voxel, frame by frame: m matter, . looked through, _ not seen; then what the map claims:
 /// o occupied, f free, u unknown.
 Reactions watch(const std::string& sights, const std::string& claims) {
-  Reactions reactions(kOneCell);
+  Reactions reactions(kOneVoxel);
   for (std::size_t i = 0; i < sights.size(); ++i) {
     const MoverSight sight = sights[i] == 'm'   ? MoverSight::kMatter
                              : sights[i] == '.' ? MoverSight::kLookedThrough
@@ -25,7 +25,7 @@ Reactions watch(const std::string& sights, const std::string& claims) {
     const Occupancy claim = claims[i] == 'o'   ? Occupancy::kOccupied
                             : claims[i] == 'f' ? Occupancy::kFree
                                                : Occupancy::kUnknown;
-    reactions.observe(MoverSights(kOneCell, sight), Claims(kOneCell, claim));
+    reactions.observe(MoverSights(kOneVoxel, sight), Claims(kOneVoxel, claim));
   }
   return reactions;
 }
@@ -44,7 +44,7 @@ TEST(Reactions, an_immediate_map_needs_one_frame_each) {
   EXPECT_THAT(r.until_free(), ElementsAre(1));
 }
 
-TEST(Reactions, frames_that_do_not_show_the_cell_do_not_count) {
+TEST(Reactions, frames_that_do_not_show_the_voxel_do_not_count) {
   const Reactions r = watch("m__m__m.__.", "ffffffooffu");
   EXPECT_THAT(r.until_occupied(), ElementsAre(3));
   EXPECT_THAT(r.until_free(), IsEmpty()) << "unknown is not free";

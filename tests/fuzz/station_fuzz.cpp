@@ -24,7 +24,7 @@ const MapModel& small_map() {
     MapMirror map;
     VoxelBlock block;
     block.clear();
-    block.cells[0] = 200;
+    block.voxels[0] = 200;
     for (std::int32_t i = 0; i < 100; ++i) map.put({i * 700, 0, -i}, block, 1);
     return MapModel(MapInfo{}, std::move(map));
   }();

@@ -36,7 +36,7 @@ int main(int count, char** words) {
   BlockMap blocks({0.1, {}, 7, Eigen::Vector3d(0, 1, 2)});
   for (int i = 0; i < 40; ++i) {
     VoxelBlock block;
-    block.cells.fill(static_cast<QuantizedLogOdds>(100 + i));
+    block.voxels.fill(static_cast<QuantizedLogOdds>(100 + i));
     blocks.put({i, -i, i % 3}, block);
   }
   if (!save_map(map, blocks, {{"config", "map:\n  voxel_m: 0.1\n"}})) return 1;

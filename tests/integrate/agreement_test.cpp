@@ -68,8 +68,8 @@ TEST(Projective, agrees_with_rays_when_moving_along_its_axis) {
 }
 
 // On a corner of the grid, and in the middle of a face. The attitude is random: looking along an
-// axis of the grid from one of its planes, whole columns of pixels fall to one side of a cell's
-// face, and the number of rays through a cell is off from its mean by as much as a column.
+// axis of the grid from one of its planes, whole columns of pixels fall to one side of a voxel's
+// face, and the number of rays through a voxel is off from its mean by as much as a column.
 TEST(Projective, agrees_with_rays_when_the_camera_stands_on_the_grid_s_planes) {
   Random random;
   for (const Eigen::Vector3d& p_m : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0.05, 0.1)}) {
@@ -93,8 +93,8 @@ TEST(Projective, agrees_with_rays_at_the_edge_of_a_sloping_wall) {
   test::expect_agreement(check.result());
 }
 
-// A frame and its mirror image, from mirrored places: cells mirror too. Their samples do not, so a
-// single cell may differ; all together lean to neither side.
+// A frame and its mirror image, from mirrored places: voxels mirror too. Their samples do not, so a
+// single voxel may differ; all together lean to neither side.
 TEST(Projective, sees_a_mirrored_frame_mirrored) {
   Random random;
   const auto forward = Transform<World, Body>{} * forward_looking_camera();
@@ -109,22 +109,22 @@ TEST(Projective, sees_a_mirrored_frame_mirrored) {
   b.add(mirrored);
   const VoxelBox box = voxel_box(a.candidate().window());
   double sum = 0.0, sum_of_sizes = 0.0;
-  int cells = 0;
+  int voxels = 0;
   for (int z = box.first.z; z <= box.last.z; ++z) {
     for (int y = -35; y < 35; ++y) {
       for (int x = 8; x <= box.last.x; ++x) {
         const int left = a.candidate().log_odds({x, y, z});
         const int right = b.candidate().log_odds({x, -1 - y, z});
-        if (left == kUnknownCell && right == kUnknownCell) continue;
+        if (left == kUnknownVoxel && right == kUnknownVoxel) continue;
         sum += left - right;
         sum_of_sizes += std::abs(left - right);
-        ++cells;
+        ++voxels;
       }
     }
   }
-  ASSERT_GT(cells, 1000);
-  EXPECT_NEAR(sum / cells, 0.0, 0.5) << random.repeat();
-  EXPECT_LE(sum_of_sizes / cells, 3.0) << random.repeat();
+  ASSERT_GT(voxels, 1000);
+  EXPECT_NEAR(sum / voxels, 0.0, 0.5) << random.repeat();
+  EXPECT_LE(sum_of_sizes / voxels, 3.0) << random.repeat();
 }
 
 }  // namespace

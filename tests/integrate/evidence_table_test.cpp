@@ -35,15 +35,15 @@ double entry(const EvidenceTable& table, int row, int of_class, int column) {
 }
 
 /// Mean over readings that scatter by s about m, by a fine sum over their normal distribution.
-double mean_over_scatter(const StereoSensor& sensor, double z_cell_m, double m, double s_m,
+double mean_over_scatter(const StereoSensor& sensor, double z_voxel_m, double m, double s_m,
                          double sigma_m) {
-  if (s_m == 0.0) return sensor.log_odds(z_cell_m, m, sigma_m);
+  if (s_m == 0.0) return sensor.log_odds(z_voxel_m, m, sigma_m);
   constexpr int kParts = 4000;
   constexpr double kEnd = 6.0;
   double sum = 0.0, weights = 0.0;
   for (int i = 0; i < kParts; ++i) {
     const double x = kEnd * (2.0 * (i + 0.5) / kParts - 1.0), weight = std::exp(-0.5 * x * x);
-    sum += weight * sensor.log_odds(z_cell_m, m - x * s_m, sigma_m);
+    sum += weight * sensor.log_odds(z_voxel_m, m - x * s_m, sigma_m);
     weights += weight;
   }
   return sum / weights;

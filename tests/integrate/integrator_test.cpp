@@ -61,8 +61,8 @@ IntegrationTally integrate(RollingMap& map, const Frame& frame, int ratio,
                   *model, map);
 }
 
-// One frame from unknown: every cell must be the reference's real number, rounded up or down.
-TEST(RayIntegrator, gives_every_cell_the_reference_s_evidence_within_one_rounding) {
+// One frame from unknown: every voxel must be the reference's real number, rounded up or down.
+TEST(RayIntegrator, gives_every_voxel_the_reference_s_evidence_within_one_rounding) {
   Random random;
   for (const int ratio : {1, 2, 3, 8}) {
     for (int trial = 0; trial < 2; ++trial) {
@@ -84,7 +84,7 @@ TEST(RayIntegrator, gives_every_cell_the_reference_s_evidence_within_one_roundin
             const auto found = sums.find({x, y, z});
             const double expected =
                 std::clamp(127.0 + (found == sums.end() ? 0.0 : found->second), 0.0, 255.0);
-            // 0.01: fixed point of 2^-20 a ray, a few hundred rays a cell, and touching cells
+            // 0.01: fixed point of 2^-20 a ray, a few hundred rays a voxel, and touching voxels
             // either way.
             ASSERT_NEAR(map.log_odds({x, y, z}), expected, 1.01)
                 << x << " " << y << " " << z << random.repeat();
@@ -124,13 +124,13 @@ TEST_P(EveryIntegrator, takes_invalid_pixels_for_no_evidence) {
   RollingMap map = new_map();
   EXPECT_EQ(integrate(map, frame, 1, options()).readings, 0U);
   map.for_each_known_block([](const BlockIndex&, const VoxelBlock& block) {
-    for (const QuantizedLogOdds cell : block.cells) EXPECT_EQ(cell, kUnknownCell);
+    for (const QuantizedLogOdds voxel : block.voxels) EXPECT_EQ(voxel, kUnknownVoxel);
   });
 }
 
-TEST_P(EveryIntegrator, leaves_cells_behind_the_surface_untouched) {
+TEST_P(EveryIntegrator, leaves_voxels_behind_the_surface_untouched) {
   RollingMap map = new_map();
-  const double wall_m = 2.1;  // the middle of a cell
+  const double wall_m = 2.1;  // the middle of a voxel
   const Frame frame = test::wall_frame(test::small_camera(80, 60), wall_m);
   for (std::uint64_t i = 0; i < 20; ++i) integrate(map, frame, 1, options(), i);
   const StereoSensor sensor(frame.intrinsics, {}, kVoxel_m, 1);
@@ -138,28 +138,28 @@ TEST_P(EveryIntegrator, leaves_cells_behind_the_surface_untouched) {
   const VoxelBox box = voxel_box(map.window());
   for (int x = static_cast<int>(reach_m / kVoxel_m) + 1; x <= box.last.x; ++x) {
     for (int y = box.first.y; y <= box.last.y; ++y)
-      ASSERT_EQ(map.log_odds({x, y, 0}), kUnknownCell);
+      ASSERT_EQ(map.log_odds({x, y, 0}), kUnknownVoxel);
   }
-  EXPECT_EQ(map.log_odds({10, 0, 0}), kOccupiedCell);
-  EXPECT_EQ(map.log_odds({5, 0, 0}), kFreeCell);
+  EXPECT_EQ(map.log_odds({10, 0, 0}), kOccupiedVoxel);
+  EXPECT_EQ(map.log_odds({5, 0, 0}), kFreeVoxel);
 }
 
-// DW's promise: a wall square to the camera gives its cells and the air before them one whole
-// observation a frame, at any distance and any n. Seen in perspective, a cell on the axis is
+// DW's promise: a wall square to the camera gives its voxels and the air before them one whole
+// observation a frame, at any distance and any n. Seen in perspective, a voxel on the axis is
 // crossed by the rays through its front face, so the observation is (z_centre / z_front)^2 of the
 // nominal one, give or take one ray along each edge of the face.
-TEST_P(EveryIntegrator, gives_one_observation_a_frame_to_covered_cells_at_any_distance_and_ratio) {
+TEST_P(EveryIntegrator, gives_one_observation_a_frame_to_covered_voxels_at_any_distance_and_ratio) {
   const double free_steps = std::log(0.3 / 0.7) / 0.04, hit_steps = std::log(0.97 / 0.03) / 0.04;
   const PinholeIntrinsics camera = test::small_camera(480, 360);
   for (const int ratio : {1, 4}) {
     for (const double wall_m : {1.1, 1.9, 3.1}) {
       RollingMap map = new_map();
       integrate(map, test::wall_frame(camera, wall_m), ratio, options());
-      const auto expect_observation = [&](int cell, double steps) {
-        const double z_front_m = cell * kVoxel_m;
+      const auto expect_observation = [&](int voxel, double steps) {
+        const double z_front_m = voxel * kVoxel_m;
         const double rays_across = camera.fx() * kVoxel_m / z_front_m / ratio;
-        const double expected = std::min(128.0, std::pow((cell + 0.5) / cell, 2) * steps);
-        EXPECT_NEAR(map.log_odds({cell, 0, 0}) - 127, expected,
+        const double expected = std::min(128.0, std::pow((voxel + 0.5) / voxel, 2) * steps);
+        EXPECT_NEAR(map.log_odds({voxel, 0, 0}) - 127, expected,
                     2.0 / rays_across * std::abs(steps) + 1)
             << wall_m << " m, n = " << ratio;
       };
@@ -198,7 +198,7 @@ TEST(EvidenceSums, do_not_depend_on_the_order_of_the_evidence) {
   }
 }
 
-// 512 cells x 400 frames of a fraction: the mean of what is added has a standard error of
+// 512 voxels x 400 frames of a fraction: the mean of what is added has a standard error of
 // sqrt(f (1 - f) / 204800) <= 0.0011; five of them.
 TEST(EvidenceSums, round_without_bias) {
   for (const double fraction : {0.01, 0.25, 0.5, 0.9}) {
@@ -207,22 +207,23 @@ TEST(EvidenceSums, round_without_bias) {
       RollingMap map = new_map();
       EvidenceSums sums(kLogOddsPerStep);
       sums.begin(map.window());
-      for (int cell = 0; cell < kBlockVoxels; ++cell) {
-        sums.add(voxel_at({0, 0, 0}, cell), static_cast<std::int32_t>(fraction * kOneStep));
+      for (int voxel = 0; voxel < kBlockVoxels; ++voxel) {
+        sums.add(voxel_at({0, 0, 0}, voxel), static_cast<std::int32_t>(fraction * kOneStep));
       }
       sums.apply(frame, map);
-      for (const QuantizedLogOdds cell : map.find({0, 0, 0})->cells) total += cell - kUnknownCell;
+      for (const QuantizedLogOdds voxel : map.find({0, 0, 0})->voxels)
+        total += voxel - kUnknownVoxel;
     }
     EXPECT_NEAR(total / (400.0 * kBlockVoxels), fraction, 0.0055);
   }
 }
 
-TEST(EvidenceSums, take_a_cell_that_is_not_free_to_unknown_but_not_on_to_free) {
+TEST(EvidenceSums, take_a_voxel_that_is_not_free_to_unknown_but_not_on_to_free) {
   auto map = RollingMap::create({}).value();
   map.recentre(Eigen::Vector3d::Zero(), nullptr);
   const VoxelIndex not_free{0, 0, 0}, passed{1, 0, 0}, was_free{2, 0, 0};
   const auto start = [&](const VoxelIndex& v, QuantizedLogOdds value) {
-    map.writable(block_of(v)).cells[offset_in_block(v)] = value;
+    map.writable(block_of(v)).voxels[offset_in_block(v)] = value;
   };
   start(not_free, 200);
   start(passed, 200);
@@ -236,14 +237,14 @@ TEST(EvidenceSums, take_a_cell_that_is_not_free_to_unknown_but_not_on_to_free) {
     }
     sums.apply(frame, map);
   }
-  EXPECT_EQ(map.log_odds(not_free), kUnknownCell);
-  EXPECT_EQ(map.log_odds(passed), kFreeCell);
+  EXPECT_EQ(map.log_odds(not_free), kUnknownVoxel);
+  EXPECT_EQ(map.log_odds(passed), kFreeVoxel);
   EXPECT_EQ(map.log_odds(was_free), 50) << "what is not free is not raised either";
   sums.begin(map.window());
   sums.add(not_free, static_cast<FixedSteps>(30 * kOneStep));
   sums.add_ends(not_free, 1.0);
   sums.apply(10, map);
-  EXPECT_EQ(map.log_odds(not_free), kUnknownCell + 30);
+  EXPECT_EQ(map.log_odds(not_free), kUnknownVoxel + 30);
 }
 
 TEST(EvidenceSums, saturate_instead_of_wrapping) {
@@ -255,8 +256,8 @@ TEST(EvidenceSums, saturate_instead_of_wrapping) {
     sums.add({2, 1, 1}, -(100 << kStepFractionBits));
     sums.apply(frame, map);
   }
-  EXPECT_EQ(map.log_odds({1, 1, 1}), kOccupiedCell);
-  EXPECT_EQ(map.log_odds({2, 1, 1}), kFreeCell);
+  EXPECT_EQ(map.log_odds({1, 1, 1}), kOccupiedVoxel);
+  EXPECT_EQ(map.log_odds({2, 1, 1}), kFreeVoxel);
 }
 
 }  // namespace

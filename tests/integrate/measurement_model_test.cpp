@@ -82,21 +82,21 @@ Frame waves(Random& random) {
   return frame;
 }
 
-// One free observation takes a cell just below the threshold, and a cell that is seen once has one:
-// so the class is not asked for where it hangs on a step.
-TEST_P(EveryMeasurementModel, says_the_same_from_the_side_of_the_rays_and_of_the_cells) {
+// One free observation takes a voxel just below the threshold, and a voxel that is seen once has
+// one: so the class is not asked for where it hangs on a step.
+TEST_P(EveryMeasurementModel, says_the_same_from_the_side_of_the_rays_and_of_the_voxels) {
   Random random;
   test::AgreementCheck check(0.1, {9, 9, 9}, Eigen::Vector3d::Zero(), 10.0, 0.05, GetParam());
   for (int i = 0; i < 3; ++i) check.add(waves(random));
   const test::Agreement agreement = check.result();
   SCOPED_TRACE(random.repeat());
   SCOPED_TRACE(agreement.text());
-  EXPECT_GT(agreement.cells, 1000U);
+  EXPECT_GT(agreement.voxels, 1000U);
   EXPECT_GE(agreement.clear_class_share(), 0.98);
   EXPECT_LE(agreement.mean_difference(), 3.0);
 }
 
-// A wall just behind the face of a cell, so that the cell is more than half full.
+// A wall just behind the face of a voxel, so that the voxel is more than half full.
 TEST_P(EveryMeasurementModel, clears_the_air_fills_the_wall_and_leaves_what_is_behind_it) {
   constexpr double kWall_m = 2.02, kEdge_m = 0.2;
   const Frame frame = test::wall_frame(test::small_camera(80, 60), kWall_m);
@@ -119,10 +119,10 @@ TEST_P(EveryMeasurementModel, clears_the_air_fills_the_wall_and_leaves_what_is_b
     const VoxelBox box = voxel_box(map->window());
     for (int x = static_cast<int>(reach_m / kEdge_m) + 1; x <= box.last.x; ++x) {
       for (int y = box.first.y; y <= box.last.y; ++y)
-        ASSERT_EQ(map->log_odds({x, y, 0}), kUnknownCell) << x << " " << y;
+        ASSERT_EQ(map->log_odds({x, y, 0}), kUnknownVoxel) << x << " " << y;
     }
-    EXPECT_EQ(map->log_odds({10, 0, 0}), kOccupiedCell);
-    EXPECT_EQ(map->log_odds({5, 0, 0}), kFreeCell);
+    EXPECT_EQ(map->log_odds({10, 0, 0}), kOccupiedVoxel);
+    EXPECT_EQ(map->log_odds({5, 0, 0}), kFreeVoxel);
   }
 }
 

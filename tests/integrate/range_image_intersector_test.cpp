@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-// The intersector decides which cells need no look. It must be conservative: never free or
-// unobserved where ray tracing finds more in a single one of their cells.
+// The intersector decides which voxels need no look. It must be conservative: never free or
+// unobserved where ray tracing finds more in a single one of their voxels.
 
 #include "swiftlet/integrate/projective/range_image_intersector.hpp"
 
@@ -84,12 +84,13 @@ void expect_conservative(const TracedFrame& traced, const VoxelIndex& first, int
                          UpdateType type) {
   if (type == UpdateType::kPossiblyOccupied) return;
   for (int i = 0; i < edge * edge * edge; ++i) {
-    const VoxelIndex cell{first.x + i % edge, first.y + i / edge % edge, first.z + i / edge / edge};
-    const int value = traced.map.log_odds(cell);
+    const VoxelIndex voxel{first.x + i % edge, first.y + i / edge % edge,
+                           first.z + i / edge / edge};
+    const int value = traced.map.log_odds(voxel);
     if (type == UpdateType::kUnobserved) {
-      ASSERT_EQ(value, kUnknownCell) << "hidden, but rays say something";
+      ASSERT_EQ(value, kUnknownVoxel) << "hidden, but rays say something";
     } else {
-      ASSERT_LE(value, kUnknownCell) << "free, but rays say there is matter";
+      ASSERT_LE(value, kUnknownVoxel) << "free, but rays say there is matter";
     }
   }
 }
@@ -125,7 +126,7 @@ TypeCounts check_all_cubes(const TracedFrame& traced, int edge) {
 
 class ConservativeIntersector : public testing::TestWithParam<std::string> {};
 
-TEST_P(ConservativeIntersector, never_says_free_or_unobserved_where_a_single_cell_is_not) {
+TEST_P(ConservativeIntersector, never_says_free_or_unobserved_where_a_single_voxel_is_not) {
   TypeCounts all{};
   Random random;
   SCOPED_TRACE(random.repeat());
@@ -186,9 +187,9 @@ TEST(ImageRanges, hold_the_reading_at_the_middle_of_a_cube_on_every_instruction_
   const auto check = [&](const char* name) {
     int in_view = 0;
     for (int trial = 0; trial < 300; ++trial) {
-      const VoxelIndex cell{random.integer(-25, 25), random.integer(-25, 25),
-                            random.integer(-25, 25)};
-      const CubeInView cube = cubes.cube(cell, 1);
+      const VoxelIndex voxel{random.integer(-25, 25), random.integer(-25, 25),
+                             random.integer(-25, 25)};
+      const CubeInView cube = cubes.cube(voxel, 1);
       if (cube.z_near() < 0.5F * params.voxel_m) continue;
       const float u = params.fx * cube.p_camera[0] / cube.p_camera[2] + params.u_offset;
       const float v = params.fy * cube.p_camera[1] / cube.p_camera[2] + params.v_offset;

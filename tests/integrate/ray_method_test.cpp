@@ -21,12 +21,12 @@ namespace {
 
 using test::Random;
 
-/// Cells with less of the segment inside than this are on the edge of being crossed: either answer
-/// is right. 1e-9 of a cell: a hundred times the rounding of coordinates up to 1e5.
+/// Voxels with less of the segment inside than this are on the edge of being crossed: either answer
+/// is right. 1e-9 of a voxel: a hundred times the rounding of coordinates up to 1e5.
 constexpr double kTouch = 1e-9;
 
-/// Length [cells] of the segment inside one cell, by clipping against its six faces. Slow, simple,
-/// and no code of ours.
+/// Length [voxels] of the segment inside one voxel, by clipping against its six faces. Slow,
+/// simple, and no code of ours.
 double intersection_length(const GridRay& ray, const VoxelIndex& v) {
   const Eigen::Vector3d d = ray.to - ray.from;
   const double low[3] = {double(v.x), double(v.y), double(v.z)};
@@ -48,7 +48,7 @@ double intersection_length(const GridRay& ray, const VoxelIndex& v) {
 constexpr VoxelBox kBox{{-9, -7, -5}, {8, 7, 6}};
 
 std::vector<VoxelIndex> trace(TraceRay method, const GridRay& ray, const VoxelBox& box = kBox) {
-  std::vector<VoxelIndex> out(max_cells(box));
+  std::vector<VoxelIndex> out(max_voxels(box));
   out.resize(method(ray, box, out));
   return out;
 }
@@ -96,11 +96,11 @@ class EveryRayMethod : public testing::TestWithParam<RayMethod> {
   }
 };
 
-TEST_P(EveryRayMethod, visits_only_cells_of_the_box_that_the_segment_meets) {
+TEST_P(EveryRayMethod, visits_only_voxels_of_the_box_that_the_segment_meets) {
   for_random_rays([&](const GridRay& ray) {
     for (const VoxelIndex& v : trace(GetParam().trace, ray)) {
       ASSERT_TRUE(kBox.contains(v));
-      // Within rounding of the cell: widen it by moving the test to the nearest of the 27 cells
+      // Within rounding of the voxel: widen it by moving the test to the nearest of the 27 voxels
       // around.
       double best = -1.0;
       for_each_voxel(
@@ -118,7 +118,7 @@ TEST_P(EveryRayMethod, visits_only_cells_of_the_box_that_the_segment_meets) {
   });
 }
 
-TEST_P(EveryRayMethod, visits_every_cell_the_segment_crosses_if_it_is_exact) {
+TEST_P(EveryRayMethod, visits_every_voxel_the_segment_crosses_if_it_is_exact) {
   if (!GetParam().is_exact) return;  // its law is the one above: a subset
   for_random_rays([&](const GridRay& ray) {
     const auto visited = trace(GetParam().trace, ray);
@@ -131,7 +131,7 @@ TEST_P(EveryRayMethod, visits_every_cell_the_segment_crosses_if_it_is_exact) {
   });
 }
 
-TEST_P(EveryRayMethod, visits_no_cell_twice_and_never_jumps) {
+TEST_P(EveryRayMethod, visits_no_voxel_twice_and_never_jumps) {
   for_random_rays([&](const GridRay& ray) {
     const auto visited = trace(GetParam().trace, ray);
     ASSERT_EQ(std::set<VoxelIndex>(visited.begin(), visited.end()).size(), visited.size());
@@ -142,7 +142,7 @@ TEST_P(EveryRayMethod, visits_no_cell_twice_and_never_jumps) {
   });
 }
 
-TEST_P(EveryRayMethod, visits_the_same_cells_in_reverse_if_it_is_exact) {
+TEST_P(EveryRayMethod, visits_the_same_voxels_in_reverse_if_it_is_exact) {
   if (!GetParam().is_exact) return;
   for_random_rays([&](const GridRay& ray) {
     const auto there = trace(GetParam().trace, ray);
@@ -155,7 +155,7 @@ TEST_P(EveryRayMethod, visits_the_same_cells_in_reverse_if_it_is_exact) {
   });
 }
 
-TEST_P(EveryRayMethod, starts_in_the_first_cell_and_ends_in_the_last) {
+TEST_P(EveryRayMethod, starts_in_the_first_voxel_and_ends_in_the_last) {
   for_random_rays([&](const GridRay& ray) {
     const VoxelIndex first = voxel_containing(ray.from, 1.0), last = voxel_containing(ray.to, 1.0);
     if (!kBox.contains(first) || !kBox.contains(last)) return;
@@ -166,7 +166,7 @@ TEST_P(EveryRayMethod, starts_in_the_first_cell_and_ends_in_the_last) {
   });
 }
 
-TEST_P(EveryRayMethod, visits_one_cell_when_the_ray_has_no_length) {
+TEST_P(EveryRayMethod, visits_one_voxel_when_the_ray_has_no_length) {
   EXPECT_EQ(trace(GetParam().trace, {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}}),
             (std::vector<VoxelIndex>{{0, 0, 0}}));
   EXPECT_EQ(trace(GetParam().trace, {{-1.0, 2.0, 3.0}, {-1.0, 2.0, 3.0}}),
@@ -213,7 +213,7 @@ TEST_P(EveryRayMethod, is_right_far_from_the_origin) {
   }
 }
 
-TEST_P(EveryRayMethod, crosses_a_corner_without_visiting_the_cells_it_only_touches) {
+TEST_P(EveryRayMethod, crosses_a_corner_without_visiting_the_voxels_it_only_touches) {
   const auto visited = trace(GetParam().trace, {{0.5, 0.5, 0.5}, {2.5, 2.5, 2.5}});
   EXPECT_EQ(visited, (std::vector<VoxelIndex>{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}));
 }

@@ -41,7 +41,7 @@ TEST(Ridges, are_those_of_the_definition_on_every_instruction_set) {
     const int most = random.chance(0.5) ? 2000 : 65535;
     for (std::uint16_t& z : image.pixels())
       z = static_cast<std::uint16_t>(random.chance(0.2) ? 0 : random.integer(1, most));
-    const RidgeLimits limits{.half_cell_px = 0.0F,
+    const RidgeLimits limits{.half_voxel_px = 0.0F,
                              .least_behind = static_cast<float>(random.real(1.0, 400.0)),
                              .behind_per_square = static_cast<float>(random.real(0.0, 1e-3))};
     const int reach = random.integer(2, static_cast<int>(RidgeLimits::kMostReach_px));

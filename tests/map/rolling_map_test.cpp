@@ -35,36 +35,37 @@ VoxelIndex random_voxel(Random& random, const BlockWindow& window) {
 }
 
 void set(RollingMap& map, const VoxelIndex& voxel, QuantizedLogOdds value) {
-  map.writable(block_of(voxel)).cells[offset_in_block(voxel)] = value;
+  map.writable(block_of(voxel)).voxels[offset_in_block(voxel)] = value;
 }
 
 QuantizedLogOdds lookup(const Model& model, const VoxelIndex& voxel) {
   const auto found = model.find(voxel);
-  return found == model.end() ? kUnknownCell : found->second;
+  return found == model.end() ? kUnknownVoxel : found->second;
 }
 
-/// What the map must do, in the plainest way: a hash map of cells, and the rule of the trigger box.
+/// What the map must do, in the plainest way: a hash map of voxels, and the rule of the trigger
+/// box.
 struct ModelMap {
-  Model cells;  // every cell ever written, if the map keeps; else those of the window
+  Model voxels;  // every voxel ever written, if the map keeps; else those of the window
   bool keeps;
 
   void forget_outside(const BlockWindow& window) {
     if (keeps) return;
-    std::erase_if(cells,
+    std::erase_if(voxels,
                   [&](const auto& entry) { return !window.contains(block_of(entry.first)); });
   }
 };
 
 struct HeldSnapshot {
   MapSnapshot snapshot;
-  Model cells;
+  Model voxels;
   BlockWindow window;
 };
 
 void expect_same(const HeldSnapshot& held, Random& random) {
   ASSERT_EQ(held.snapshot.window(), held.window);
-  for (const auto& [voxel, value] : held.cells) {
-    const QuantizedLogOdds expected = held.window.contains(block_of(voxel)) ? value : kUnknownCell;
+  for (const auto& [voxel, value] : held.voxels) {
+    const QuantizedLogOdds expected = held.window.contains(block_of(voxel)) ? value : kUnknownVoxel;
     ASSERT_EQ(held.snapshot.log_odds(voxel), expected) << random.repeat();
   }
 }
@@ -87,12 +88,12 @@ void run_model_test(bool keeps) {
       if (choice < 0.55) {
         const auto value = static_cast<QuantizedLogOdds>(random.integer(0, 255));
         set(map, voxel, value);
-        model.cells[voxel] = value;
+        model.voxels[voxel] = value;
       } else if (choice < 0.9) {
-        ASSERT_EQ(map.log_odds(voxel), lookup(model.cells, voxel)) << random.repeat();
+        ASSERT_EQ(map.log_odds(voxel), lookup(model.voxels, voxel)) << random.repeat();
         if (random.chance(0.5)) {
           set(map, voxel, 200);
-          model.cells[voxel] = 200;
+          model.voxels[voxel] = 200;
         }
       } else if (choice < 0.97) {
         p += random.chance(0.05) ? random.vector(-30.0, 30.0) : random.vector(-0.7, 0.7);
@@ -105,12 +106,12 @@ void run_model_test(bool keeps) {
         }
         auto snapshot = map.snapshot({static_cast<std::uint64_t>(step)});
         ASSERT_TRUE(snapshot);
-        held.push_back({std::move(*snapshot), model.cells, map.window()});
+        held.push_back({std::move(*snapshot), model.voxels, map.window()});
       }
       if (testing::Test::HasFatalFailure()) return;
     }
     for (const HeldSnapshot& h : held) expect_same(h, random);
-    for (const auto& [index, value] : model.cells) {
+    for (const auto& [index, value] : model.voxels) {
       if (map.window().contains(block_of(index))) {
         ASSERT_EQ(map.log_odds(index), value) << random.repeat();
       }
@@ -118,10 +119,10 @@ void run_model_test(bool keeps) {
   }
 }
 
-TEST(RollingMap, behaves_like_a_hash_map_of_cells_that_forgets_what_leaves) {
+TEST(RollingMap, behaves_like_a_hash_map_of_voxels_that_forgets_what_leaves) {
   run_model_test(false);
 }
-TEST(RollingMap, behaves_like_a_hash_map_of_cells_when_an_archive_keeps_what_leaves) {
+TEST(RollingMap, behaves_like_a_hash_map_of_voxels_when_an_archive_keeps_what_leaves) {
   run_model_test(true);
 }
 
@@ -159,8 +160,8 @@ TEST(RollingMap, there_and_back_keeps_what_never_left_and_restores_the_rest_bit_
   for_each_block(map.window(), [&](const BlockIndex& b) {
     if (random.chance(0.5)) return;
     VoxelBlock& block = map.writable(b);
-    for (QuantizedLogOdds& cell : block.cells)
-      cell = static_cast<QuantizedLogOdds>(random.integer(0, 255));
+    for (QuantizedLogOdds& voxel : block.voxels)
+      voxel = static_cast<QuantizedLogOdds>(random.integer(0, 255));
     before[b] = block;
   });
   const auto away = map.recentre({3.0, -2.0, 0.0}, &archive);
@@ -177,8 +178,8 @@ TEST(RollingMap, hands_each_block_that_leaves_to_the_archive_once_and_forgets_it
   set(map, {0, 0, 0}, 250);
   const auto shift = map.recentre({100.0, 0.0, 0.0}, &archive);
   EXPECT_EQ(shift.blocks_evicted, 1U);
-  EXPECT_EQ(archive.blocks().find({0, 0, 0})->cells[0], 250);
-  EXPECT_EQ(map.log_odds({0, 0, 0}), kUnknownCell);
+  EXPECT_EQ(archive.blocks().find({0, 0, 0})->voxels[0], 250);
+  EXPECT_EQ(map.log_odds({0, 0, 0}), kUnknownVoxel);
 }
 
 TEST(RollingMap, uses_no_more_memory_for_a_longer_path) {
@@ -247,7 +248,7 @@ TEST(MapSnapshot, tells_blocks_that_changed_since_an_earlier_one) {
   EXPECT_EQ(second->version({0, 1, 0}), 0U);
 }
 
-// The writer gives all cells of the window the number of the frame; a reader that sees two numbers
+// The writer gives all voxels of the window the number of the frame; a reader that sees two numbers
 // in one snapshot has seen a frame half done.
 TEST(MapReader, sees_whole_frames_only_from_several_threads) {
   RollingMap map = small_map({1.6, 1.6, 0.8});
@@ -261,7 +262,7 @@ TEST(MapReader, sees_whole_frames_only_from_several_threads) {
       if (!snapshot) continue;
       const auto expected = static_cast<QuantizedLogOdds>(snapshot->frame_count() % 256);
       snapshot->for_each_known_block([&](const BlockIndex&, const VoxelBlock& block) {
-        for (const QuantizedLogOdds cell : block.cells) torn += cell == expected ? 0 : 1;
+        for (const QuantizedLogOdds voxel : block.voxels) torn += voxel == expected ? 0 : 1;
       });
       ++seen;
       if (seen % 7 == 0) kept = std::move(snapshot);  // some readers are slow to let go
@@ -270,7 +271,7 @@ TEST(MapReader, sees_whole_frames_only_from_several_threads) {
   std::thread a(read, map.reader()), b(read, map.reader()), c(read, map.reader());
   for (std::uint64_t frame = 1; frame <= 3000 || seen < 100; ++frame) {
     for_each_block(map.window(), [&](const BlockIndex& index) {
-      map.writable(index).cells.fill(static_cast<QuantizedLogOdds>(frame % 256));
+      map.writable(index).voxels.fill(static_cast<QuantizedLogOdds>(frame % 256));
     });
     map.publish({frame});
   }

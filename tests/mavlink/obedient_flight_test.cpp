@@ -20,7 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 using test::Random;
 
-constexpr double kCell_m = 0.2;
+constexpr double kVoxel_m = 0.2;
 constexpr double kKeep_m = 1.0;   // CP_DIST
 constexpr double kDelay_s = 0.4;  // CP_DELAY: image to message, and that the message is 66 ms old
 constexpr double kGain = 0.95;    // MPC_XY_P
@@ -82,7 +82,7 @@ double distance_to(const std::vector<Eigen::AlignedBox2d>& walls, const Eigen::V
 }
 
 TEST(ObedientFlight, never_comes_nearer_to_a_wall_than_it_must_keep_however_the_pilot_pushes) {
-  test::HandMadeMap map(kCell_m, {18, 18, 3});
+  test::HandMadeMap map(kVoxel_m, {18, 18, 3});
   double nearest = 1e9;
   int stopped = 0;
   test::for_each_seed(50, [&](Random& random) {
@@ -118,7 +118,7 @@ TEST(ObedientFlight, never_comes_nearer_to_a_wall_than_it_must_keep_however_the_
       p += 0.005 * speed_mps * ahead;
       const double left_m = distance_to(walls, p);
       nearest = std::min(nearest, left_m);
-      ASSERT_GE(left_m, kKeep_m - kCell_m) << "at " << speed_mps << " m/s";
+      ASSERT_GE(left_m, kKeep_m - kVoxel_m) << "at " << speed_mps << " m/s";
       if (p.norm() > 8.5) break;
     }
     EXPECT_GT(heard, 0U);

@@ -21,7 +21,7 @@ using test::Belief;
 using test::HandMadeMap;
 using test::Random;
 
-constexpr double kVoxel_m = 0.25;
+constexpr double kRingVoxel_m = 0.25;
 constexpr RingOptions kOptions{
     .body_radius_m = 0.3, .body_height_m = 0.3, .margin_m = 0.2, .max_m = 3.5, .blind_m = 0.6};
 constexpr RingTelling kTelling{.max_m = kOptions.max_m, .least_known_m = 1.2};
@@ -34,12 +34,12 @@ void scatter(Random& random, HandMadeMap& map) {
   const double unknown = random.chance(0.4) ? 0.0 : random.real(0, 0.01);
   for_each_block(map.map().window(), [&](const BlockIndex& b) {
     if (random.chance(0.05)) return;
-    auto& cells = map.map().writable(b).cells;
-    cells.fill(test::kFree);
+    auto& voxels = map.map().writable(b).voxels;
+    voxels.fill(test::kFree);
     for (auto left = static_cast<int>(matter * 512 + random.real(0, 1)); left > 0; --left)
-      cells[random.integer<std::size_t>(0, 511)] = test::kOccupied;
+      voxels[random.integer<std::size_t>(0, 511)] = test::kOccupied;
     for (auto left = static_cast<int>(unknown * 512 + random.real(0, 1)); left > 0; --left)
-      cells[random.integer<std::size_t>(0, 511)] = kUnknownCell;
+      voxels[random.integer<std::size_t>(0, 511)] = kUnknownVoxel;
   });
 }
 
@@ -104,8 +104,8 @@ class Witness {
     const Sight sight = seen_from(T_world_body_, p);
     if (state == Occupancy::kOccupied) check_matter(sight);
     const bool is_level_with_body = p.z() >= low_ && p.z() <= high_;
-    // The cell's middle, by which the ring judges, is at most half a diagonal away.
-    const bool is_far = sight.distance_m > kOptions.blind_m + kVoxel_m * std::sqrt(0.5);
+    // The voxel's middle, by which the ring judges, is at most half a diagonal away.
+    const bool is_far = sight.distance_m > kOptions.blind_m + kRingVoxel_m * std::sqrt(0.5);
     if (state == Occupancy::kUnknown && is_level_with_body && is_far) check_unknown(sight);
     return state != Occupancy::kFree;
   }
@@ -143,7 +143,7 @@ class Witness {
 };
 
 TEST(ObstacleRing, never_tells_a_receiver_of_matter_too_far_nor_of_the_unknown_as_free) {
-  HandMadeMap map(kVoxel_m, {6, 6, 2});
+  HandMadeMap map(kRingVoxel_m, {6, 6, 2});
   std::size_t checked = 0;
   test::for_each_seed(2'000, [&](Random& random) {
     scatter(random, map);
@@ -183,7 +183,7 @@ TEST(ObstacleRing, sees_a_post_in_the_sector_where_it_stands_at_its_near_face) {
 TEST(ObstacleRing, looks_at_the_height_of_the_body_and_its_margin_alone) {
   HandMadeMap map(0.1, {6, 6, 3});
   map.fill_window(test::kFree);
-  map.fill({1, -0.3, 0.46}, {1, 0.3, 0.46}, test::kOccupied);  // above: 0.15 + 0.2 + a cell
+  map.fill({1, -0.3, 0.46}, {1, 0.3, 0.46}, test::kOccupied);  // above: 0.15 + 0.2 + a voxel
   map.fill({2, -0.3, 0.32}, {2, 0.3, 0.32}, test::kOccupied);  // within the margin
   const Transform<World, Body> level;
   EXPECT_NEAR(look_around(map.snapshot(), level, kOptions).sectors[0].occupied_m, 2.0, 0.1);

@@ -8,20 +8,20 @@
 #include <string>
 
 #include "swiftlet/pipeline/mapper.hpp"
-#include "swiftlet/query/cell_counts.hpp"
+#include "swiftlet/query/voxel_counts.hpp"
 
 namespace swiftlet {
 namespace {
 
-/// All that a run shows of itself: the cells, where the window lies, and what the cells mean.
+/// All that a run shows of itself: the voxels, where the window lies, and what the voxels mean.
 struct Outcome {
   std::map<BlockIndex, VoxelBlock> blocks;
   BlockWindow window{};
-  CellCounts cells;
+  VoxelCounts voxels;
 
   friend bool operator==(const Outcome& a, const Outcome& b) {
-    return a.blocks == b.blocks && a.window == b.window && a.cells.free == b.cells.free &&
-           a.cells.unknown == b.cells.unknown && a.cells.occupied == b.cells.occupied;
+    return a.blocks == b.blocks && a.window == b.window && a.voxels.free == b.voxels.free &&
+           a.voxels.unknown == b.voxels.unknown && a.voxels.occupied == b.voxels.occupied;
   }
 };
 
@@ -48,7 +48,7 @@ Outcome outcome_of(const MapperConfig& config) {
   outcome.window = mapper->map().window();
   mapper->map().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
     outcome.blocks.emplace(index, block);
-    outcome.cells.add(block, config.occupancy);
+    outcome.voxels.add(block, config.occupancy);
   });
   return outcome;
 }
@@ -78,8 +78,8 @@ MapperConfig base_config() {
 
 TEST(MapperConfig, every_parameter_changes_some_output) {
   const Outcome before = outcome_of(base_config());
-  ASSERT_GT(before.cells.occupied, 0U);
-  ASSERT_GT(before.cells.free, 0U);
+  ASSERT_GT(before.voxels.occupied, 0U);
+  ASSERT_GT(before.voxels.free, 0U);
   std::vector<std::string> keys;
   const MapperConfig defaults;
   visit_config(defaults,

@@ -40,7 +40,7 @@ TEST_P(MapBitsOf, are_those_of_every_machine) {
   for (int i = 0; i < 8; ++i)
     mapper->integrate(test::random_frame(random, test::small_camera(163, 121), 2.0));
   const test::MapBits bits = test::bits_of(*mapper);
-  EXPECT_GT(bits.known_cells, 1000U);
+  EXPECT_GT(bits.known_voxels, 1000U);
   EXPECT_EQ(bits.hash, GetParam().hash) << bits;
 }
 

@@ -11,8 +11,8 @@
 #include "support/allocations.hpp"
 #include "support/synthetic.hpp"
 #include "swiftlet/integrate/measurement_models.hpp"
-#include "swiftlet/query/cell_counts.hpp"
 #include "swiftlet/query/occupancy_query.hpp"
+#include "swiftlet/query/voxel_counts.hpp"
 
 namespace swiftlet {
 namespace {
@@ -68,8 +68,8 @@ TEST(Mapper, hands_out_snapshots_that_tell_their_frame_and_how_they_are_read) {
   EXPECT_EQ(mapper.snapshot()->frame_count(), 0U);
 }
 
-// Half a cell of matter may be unknown; the next one is all matter.
-TEST(Mapper, lets_nobody_through_a_wall_wherever_it_stands_in_its_cell) {
+// Half a voxel of matter may be unknown; the next one is all matter.
+TEST(Mapper, lets_nobody_through_a_wall_wherever_it_stands_in_its_voxel) {
   MapperConfig config;
   for (int wall_mm = 3000; wall_mm <= 3200; wall_mm += 10) {
     Mapper mapper = new_mapper(config);
@@ -107,7 +107,7 @@ TEST(Mapper, refuses_frames_it_cannot_use_and_leaves_the_map_alone) {
           .verdict,
       FrameVerdict::kPoseOutOfRange);
   EXPECT_EQ(mapper.frame_count(), 0U);
-  EXPECT_EQ(count_cells(*mapper.snapshot()).free, 0U);
+  EXPECT_EQ(count_voxels(*mapper.snapshot()).free, 0U);
 }
 
 // Warm-up: two tours of what is to come, over an empty map and over a full one, so that every

@@ -11,13 +11,13 @@
 namespace swiftlet {
 namespace {
 
-using Cells = std::map<BlockIndex, VoxelBlock>;
+using Voxels = std::map<BlockIndex, VoxelBlock>;
 
-Cells cells_of(const Mapper& mapper) {
-  Cells cells;
+Voxels voxels_of(const Mapper& mapper) {
+  Voxels voxels;
   mapper.map().for_each_known_block(
-      [&](const BlockIndex& index, const VoxelBlock& block) { cells.emplace(index, block); });
-  return cells;
+      [&](const BlockIndex& index, const VoxelBlock& block) { voxels.emplace(index, block); });
+  return voxels;
 }
 
 Mapper mapper_with(NewWorldRule rule) {
@@ -34,12 +34,12 @@ Frame seen_in(std::uint32_t epoch, double wall_m) {
 }
 
 /// The map of these frames and no others.
-Cells map_of(const std::vector<Frame>& frames) {
+Voxels map_of(const std::vector<Frame>& frames) {
   Mapper mapper = mapper_with(NewWorldRule::kRefuse);
   for (const Frame& frame : frames) {
     EXPECT_EQ(mapper.integrate(frame).verdict, FrameVerdict::kIntegrated);
   }
-  return cells_of(mapper);
+  return voxels_of(mapper);
 }
 
 TEST(NewWorld, is_never_fused_into_the_map_of_the_old_one_unless_that_is_asked_for) {
@@ -50,14 +50,14 @@ TEST(NewWorld, is_never_fused_into_the_map_of_the_old_one_unless_that_is_asked_f
   for (const Frame& frame : new_world) {
     EXPECT_EQ(mapper.integrate(frame).verdict, FrameVerdict::kOtherWorld);
   }
-  EXPECT_EQ(cells_of(mapper), map_of(old_world)) << "refused frames leave no trace";
+  EXPECT_EQ(voxels_of(mapper), map_of(old_world)) << "refused frames leave no trace";
 
   Mapper keeper = mapper_with(NewWorldRule::kKeep);
   for (const auto& frames : {old_world, new_world}) {
     for (const Frame& frame : frames) keeper.integrate(frame);
   }
   EXPECT_EQ(keeper.frame_count(), 4U);
-  EXPECT_NE(cells_of(keeper), map_of(old_world));
+  EXPECT_NE(voxels_of(keeper), map_of(old_world));
 }
 
 TEST(NewWorld, begins_with_the_bits_of_a_new_mapper_and_its_readers_follow) {
@@ -75,7 +75,7 @@ TEST(NewWorld, begins_with_the_bits_of_a_new_mapper_and_its_readers_follow) {
       const auto held = reader.latest();
       if (rule == NewWorldRule::kRefuse) mapper.begin_world(1);
       for (const Frame& frame : new_world) mapper.integrate(frame);
-      EXPECT_EQ(cells_of(mapper), map_of(new_world)) << name_of(rule) << random.repeat();
+      EXPECT_EQ(voxels_of(mapper), map_of(new_world)) << name_of(rule) << random.repeat();
       EXPECT_EQ(reader.latest()->frame_count(), new_world.size());
       EXPECT_EQ(held->frame_count(), old_world.size()) << "a held snapshot never changes";
     }
@@ -85,10 +85,10 @@ TEST(NewWorld, begins_with_the_bits_of_a_new_mapper_and_its_readers_follow) {
 TEST(NewWorld, is_not_cleared_by_frames_that_come_late_or_are_of_no_use) {
   Mapper mapper = mapper_with(NewWorldRule::kClear);
   mapper.integrate(seen_in(7, 2.0));
-  const Cells before = cells_of(mapper);
+  const Voxels before = voxels_of(mapper);
   EXPECT_EQ(mapper.integrate(seen_in(6, 3.0)).verdict, FrameVerdict::kOtherWorld) << "late";
   EXPECT_EQ(mapper.integrate(seen_in(8, 0.0)).verdict, FrameVerdict::kNoReadings);
-  EXPECT_EQ(cells_of(mapper), before);
+  EXPECT_EQ(voxels_of(mapper), before);
   EXPECT_EQ(mapper.integrate(seen_in(8, 3.0)).verdict, FrameVerdict::kIntegrated);
   EXPECT_EQ(mapper.frame_count(), 1U);
 }

@@ -30,7 +30,7 @@ Frame half_a_wall(OnTheRight what) {
 }
 
 // 2.1 m ahead, a metre to the right; and the wall to the left.
-const VoxelIndex kThingCell{10, -5, 0}, kWallCell{15, 5, 0};
+const VoxelIndex kThingVoxel{10, -5, 0}, kWallVoxel{15, 5, 0};
 
 class Watched {
  public:
@@ -63,29 +63,29 @@ class Watched {
 TEST(OccupancyDecay, lets_go_of_what_has_left_within_its_time_and_not_before) {
   Watched map(kDecay_s);
   map.show(half_a_wall(OnTheRight::kThing), 1.0);
-  ASSERT_EQ(map.at(kThingCell), kOccupiedCell);
+  ASSERT_EQ(map.at(kThingVoxel), kOccupiedVoxel);
   map.show(half_a_wall(OnTheRight::kNothing), 0.5);
   // Half of the 128 steps; up to eight and those of a frame may be carried on.
-  EXPECT_NEAR(map.at(kThingCell), kUnknownCell + 64, 8 + 5);
+  EXPECT_NEAR(map.at(kThingVoxel), kUnknownVoxel + 64, 8 + 5);
   map.show(half_a_wall(OnTheRight::kNothing), 0.5 + 0.04);
-  EXPECT_EQ(map.at(kThingCell), kUnknownCell) << "unknown, and no less";
+  EXPECT_EQ(map.at(kThingVoxel), kUnknownVoxel) << "unknown, and no less";
   map.show(half_a_wall(OnTheRight::kNothing), 1.0);
-  EXPECT_EQ(map.at(kThingCell), kUnknownCell);
-  EXPECT_EQ(map.at(kWallCell), kOccupiedCell) << "what is seen stays";
+  EXPECT_EQ(map.at(kThingVoxel), kUnknownVoxel);
+  EXPECT_EQ(map.at(kWallVoxel), kOccupiedVoxel) << "what is seen stays";
 }
 
 TEST(OccupancyDecay, switched_off_keeps_ghosts) {
   Watched map(0.0);
   map.show(half_a_wall(OnTheRight::kThing), 1.0);
   map.show(half_a_wall(OnTheRight::kNothing), 10.0);
-  EXPECT_EQ(map.claim(kThingCell), Occupancy::kOccupied);
+  EXPECT_EQ(map.claim(kThingVoxel), Occupancy::kOccupied);
 }
 
 TEST(OccupancyDecay, keeps_what_is_hidden) {
   Watched map(kDecay_s);
   map.show(half_a_wall(OnTheRight::kThing), 1.0);
   map.show(half_a_wall(OnTheRight::kScreen), 5.0);
-  EXPECT_EQ(map.at(kThingCell), kOccupiedCell);
+  EXPECT_EQ(map.at(kThingVoxel), kOccupiedVoxel);
 }
 
 TEST(OccupancyDecay, keeps_what_is_out_of_view_or_out_of_range) {
@@ -97,7 +97,7 @@ TEST(OccupancyDecay, keeps_what_is_out_of_view_or_out_of_range) {
           Eigen::Quaterniond(Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitZ())), {0, 0, 0}) *
       forward_looking_camera();
   map.show(away, 5.0);
-  EXPECT_EQ(map.at(kThingCell), kOccupiedCell);
+  EXPECT_EQ(map.at(kThingVoxel), kOccupiedVoxel);
 
   // Farther back than max_range_m reaches, still inside the window and in view.
   Frame back = half_a_wall(OnTheRight::kNothing);
@@ -109,14 +109,14 @@ TEST(OccupancyDecay, keeps_what_is_out_of_view_or_out_of_range) {
   Watched short_sighted(kDecay_s, near);
   short_sighted.show(half_a_wall(OnTheRight::kThing), 1.0);
   short_sighted.show(back, 5.0);
-  EXPECT_EQ(short_sighted.at(kThingCell), kUnknownCell) << "3.1 m from there: in range";
+  EXPECT_EQ(short_sighted.at(kThingVoxel), kUnknownVoxel) << "3.1 m from there: in range";
   near.depth.max_range_m = 2.9;
   Watched shorter(kDecay_s, near);
   shorter.show(half_a_wall(OnTheRight::kThing), 1.0);
   // At 2.9 m the left half has no reading at 4.1 m either: give it one.
   for (int v = 0; v < 120; ++v) back.depth.raw.at(3, v) = 2500;
   shorter.show(back, 5.0);
-  EXPECT_EQ(shorter.at(kThingCell), kOccupiedCell) << "3.1 m from there: out of range";
+  EXPECT_EQ(shorter.at(kThingVoxel), kOccupiedVoxel) << "3.1 m from there: out of range";
 }
 
 TEST(OccupancyDecay, keeps_a_thing_of_which_every_third_reading_is_missing) {
@@ -128,7 +128,7 @@ TEST(OccupancyDecay, keeps_a_thing_of_which_every_third_reading_is_missing) {
     for (std::uint16_t& d : frame.depth.raw.pixels()) d = random.chance(0.33) ? 0 : d;
     map.show(frame, 0.0334);
   }
-  EXPECT_EQ(map.claim(kThingCell), Occupancy::kOccupied);
+  EXPECT_EQ(map.claim(kThingVoxel), Occupancy::kOccupied);
 }
 
 TEST(OccupancyDecay, one_frame_after_a_long_silence_clears_nothing) {
@@ -136,7 +136,7 @@ TEST(OccupancyDecay, one_frame_after_a_long_silence_clears_nothing) {
   map.show(half_a_wall(OnTheRight::kThing), 1.0);
   map.wait(60.0);
   map.show(half_a_wall(OnTheRight::kNothing), 0.0334);
-  EXPECT_EQ(map.claim(kThingCell), Occupancy::kOccupied);
+  EXPECT_EQ(map.claim(kThingVoxel), Occupancy::kOccupied);
 }
 
 TEST(OccupancyDecay,
@@ -158,7 +158,7 @@ TEST(OccupancyDecay,
   Watched map(kDecay_s, rays);
   map.show(half_a_wall(OnTheRight::kThing), 1.0);
   map.show(half_a_wall(OnTheRight::kNothing), 1.1);
-  EXPECT_EQ(map.at(kThingCell), kUnknownCell);
+  EXPECT_EQ(map.at(kThingVoxel), kUnknownVoxel);
 }
 
 }  // namespace

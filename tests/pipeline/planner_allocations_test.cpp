@@ -32,7 +32,7 @@ TEST(Planner, asks_for_points_rays_and_boxes_without_allocating) {
   const Occupancy state = map.occupancy(wall);
   const double p = map.probability(here);
   const RayHit hit = cast_ray(map, here, wall);
-  const CellCounts counts = count_cells(map, box);
+  const VoxelCounts counts = count_voxels(map, box);
   copy_box(map, box, std::span<float>(probabilities));
   const std::size_t made = allocations.so_far();
   EXPECT_EQ(made, 0U);
@@ -66,7 +66,7 @@ TEST(Planner, asks_for_sweeps_frontiers_and_views_without_allocating) {
   const std::size_t made = allocations.so_far();
   EXPECT_EQ(made, 0U);
   EXPECT_EQ(answer->state, SweepState::kBlocked);
-  EXPECT_GT(frontier.cell_count() * *unknown, 0U);
+  EXPECT_GT(frontier.voxel_count() * *unknown, 0U);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using test::any_voxel;
 using test::BruteDistance;
 using test::field_for;
 using test::kBothObstacles;
-using test::kRestlessCell_m;
+using test::kRestlessVoxel_m;
 using test::Random;
 using test::RestlessMap;
 
@@ -26,7 +26,7 @@ TEST(DistanceField, knows_a_wall_and_a_ball_within_the_diagonal_of_a_voxel) {
   for_each_block(map->window(), [&](const BlockIndex& b) {
     for (int i = 0; i < kBlockVoxels; ++i) {
       const Eigen::Vector3d p = centre_of(voxel_at(b, i), 0.1);
-      map->writable(b).cells[i] = p.x() > wall_x_m || p.norm() < radius_m ? 220 : 20;
+      map->writable(b).voxels[i] = p.x() > wall_x_m || p.norm() < radius_m ? 220 : 20;
     }
   });
   DistanceField field = field_for(*map, {.max_distance_m = 1.5, .is_signed = true});
@@ -68,21 +68,21 @@ TEST(DistanceField, has_the_gradient_of_its_values_and_no_steps_in_them) {
         const double t = v - 0.5 - std::floor(v - 0.5);
         if (t < 1e-3 || t > 1 - 1e-3) v += 4e-3;
       }
-      const DistanceSample here = field.sample(p * kRestlessCell_m, obstacles);
+      const DistanceSample here = field.sample(p * kRestlessVoxel_m, obstacles);
       Eigen::Vector3d slope;
       for (int axis = 0; axis < 3; ++axis) {
-        const Eigen::Vector3d step = Eigen::Vector3d::Unit(axis) * 1e-4 * kRestlessCell_m;
-        slope[axis] = (field.sample(p * kRestlessCell_m + step, obstacles).distance_m -
-                       field.sample(p * kRestlessCell_m - step, obstacles).distance_m) /
-                      (2e-4 * kRestlessCell_m);
+        const Eigen::Vector3d step = Eigen::Vector3d::Unit(axis) * 1e-4 * kRestlessVoxel_m;
+        slope[axis] = (field.sample(p * kRestlessVoxel_m + step, obstacles).distance_m -
+                       field.sample(p * kRestlessVoxel_m - step, obstacles).distance_m) /
+                      (2e-4 * kRestlessVoxel_m);
       }
       // Trilinear is linear along each axis, so all that is left is rounding: 1e-16 / 1e-5.
       ASSERT_LT((slope - here.gradient).norm(), 1e-8);
       // No steps: a Lipschitz constant of sqrt(3), also across the seams between eight centres.
       const Eigen::Vector3d q = p + random.vector(-0.01, 0.01);
-      const DistanceSample there = field.sample(q * kRestlessCell_m, obstacles);
+      const DistanceSample there = field.sample(q * kRestlessVoxel_m, obstacles);
       ASSERT_LE(std::abs(there.distance_m - here.distance_m),
-                std::sqrt(3.0) * (q - p).norm() * kRestlessCell_m + 1e-9);
+                std::sqrt(3.0) * (q - p).norm() * kRestlessVoxel_m + 1e-9);
     }
   }
 }
@@ -112,11 +112,12 @@ TEST(DistanceField, never_claims_more_room_than_its_margin_allows) {
               true_voxels = std::min(true_voxels, (p - in).norm());
             }
         const double margin_m = field.conservative_margin_m();
-        const double claimed_m = field.sample(p * kRestlessCell_m, obstacles).distance_m - margin_m;
-        ASSERT_LE(claimed_m, true_voxels * kRestlessCell_m + 1e-6);
+        const double claimed_m =
+            field.sample(p * kRestlessVoxel_m, obstacles).distance_m - margin_m;
+        ASSERT_LE(claimed_m, true_voxels * kRestlessVoxel_m + 1e-6);
         ASSERT_LE(field.distance(v, obstacles).distance_m - margin_m,
-                  true_voxels * kRestlessCell_m + 1e-6);
-        tight += claimed_m > 0.5 * true_voxels * kRestlessCell_m ? 1 : 0;
+                  true_voxels * kRestlessVoxel_m + 1e-6);
+        tight += claimed_m > 0.5 * true_voxels * kRestlessVoxel_m ? 1 : 0;
       }
     }
   }
@@ -124,22 +125,22 @@ TEST(DistanceField, never_claims_more_room_than_its_margin_allows) {
 }
 
 TEST(DistanceField, says_what_an_answer_is_worth) {
-  auto map = RollingMap::create({.voxel_m = kRestlessCell_m, .size_m = {6, 6, 6}});
+  auto map = RollingMap::create({.voxel_m = kRestlessVoxel_m, .size_m = {6, 6, 6}});
   map->recentre(Eigen::Vector3d::Zero(), nullptr);
   for (const BlockIndex b : {BlockIndex{0, 0, 0}, BlockIndex{-1, 0, 0}}) {
-    map->writable(b).cells.fill(20);
+    map->writable(b).voxels.fill(20);
   }
-  map->writable({0, 0, 0}).cells[offset_in_block({7, 4, 4})] = 220;
+  map->writable({0, 0, 0}).voxels[offset_in_block({7, 4, 4})] = 220;
   DistanceField field = field_for(*map, {.max_distance_m = 1.0});
   constexpr auto kOccupied = Obstacles::kOccupied, kNotFree = Obstacles::kNotFree;
   EXPECT_EQ(field.distance({0, 0, 0}, kOccupied).status, DistanceStatus::kOutside) << "no map yet";
   field.update(*map->snapshot({1}));
   EXPECT_EQ(field.distance({5, 4, 4}, kOccupied).status, DistanceStatus::kKnown);
-  EXPECT_EQ(field.distance({5, 4, 4}, kOccupied).distance_m, 2 * kRestlessCell_m);
+  EXPECT_EQ(field.distance({5, 4, 4}, kOccupied).distance_m, 2 * kRestlessVoxel_m);
   EXPECT_EQ(field.distance({-2, 4, 4}, kOccupied).status, DistanceStatus::kBeyondReach);
   EXPECT_EQ(field.distance({-2, 4, 4}, kOccupied).distance_m, 1.0);
   EXPECT_EQ(field.distance({8, 4, 4}, kOccupied).status, DistanceStatus::kUnknownHere);
-  EXPECT_EQ(field.distance({8, 4, 4}, kOccupied).distance_m, kRestlessCell_m);
+  EXPECT_EQ(field.distance({8, 4, 4}, kOccupied).distance_m, kRestlessVoxel_m);
   EXPECT_EQ(field.distance({8, 4, 4}, kNotFree).distance_m, 0.0);
   EXPECT_EQ(field.distance({4000, 4, 4}, kNotFree).status, DistanceStatus::kOutside);
   EXPECT_FALSE(field.closest_obstacle({4000, 4, 4}, kNotFree));
@@ -160,7 +161,7 @@ TEST(DistanceField, refuses_what_it_cannot_be) {
   EXPECT_EQ(error_of({}), "none");
   EXPECT_EQ(error_of({.max_distance_m = 25.4}), "none");
   EXPECT_EQ(error_of({.max_distance_m = 30.0}),
-            "distance field: max_distance_m is more than 254 cells; give at most 25.4 m");
+            "distance field: max_distance_m is more than 254 voxels; give at most 25.4 m");
   for (const double bad : {0.05, 0.0, -1.0, not_a_number, HUGE_VAL})
     EXPECT_NE(error_of({.max_distance_m = bad}), "none") << bad;
   for (const double bad : {0.0, -0.1, not_a_number, HUGE_VAL})

@@ -19,7 +19,7 @@ using test::any_voxel;
 using test::BruteDistance;
 using test::field_for;
 using test::kBothObstacles;
-using test::kRestlessCell_m;
+using test::kRestlessVoxel_m;
 using test::Random;
 using test::RestlessMap;
 using test::same_bits;
@@ -30,11 +30,11 @@ void expect_true_distance(const DistanceField& field, const BruteDistance& truth
   const DistanceFieldOptions& options = field.options();
   const auto squared = truth.squared(v, obstacles);
   ASSERT_EQ(field.squared_voxels(v, obstacles), squared);
-  double distance_m = squared ? std::sqrt(*squared) * kRestlessCell_m : options.max_distance_m;
+  double distance_m = squared ? std::sqrt(*squared) * kRestlessVoxel_m : options.max_distance_m;
   if (options.is_signed && truth.is_obstacle(v, obstacles)) {
     const auto inside = truth.squared(v, obstacles, true);
-    distance_m =
-        kRestlessCell_m - (inside ? std::sqrt(*inside) * kRestlessCell_m : options.max_distance_m);
+    distance_m = kRestlessVoxel_m -
+                 (inside ? std::sqrt(*inside) * kRestlessVoxel_m : options.max_distance_m);
   }
   const DistanceAnswer answer = field.distance(v, obstacles);
   ASSERT_NEAR(answer.distance_m, distance_m, 1e-6);  // kept as float
@@ -53,7 +53,7 @@ void expect_true_distance(const DistanceField& field, const BruteDistance& truth
 
 DistanceFieldOptions any_options(Random& random) {
   DistanceFieldOptions options;
-  options.max_distance_m = kRestlessCell_m * random.real(1.0, 9.0);
+  options.max_distance_m = kRestlessVoxel_m * random.real(1.0, 9.0);
   options.is_signed = random.chance(0.5);
   options.occupied = random.chance(0.8);
   options.not_free = !options.occupied || random.chance(0.8);
@@ -69,7 +69,7 @@ TEST(DistanceField, equals_one_from_scratch_and_the_truth_after_every_update) {
     RestlessMap world(random, {random.real(2, 8), random.real(2, 5), random.real(2, 4)});
     const DistanceFieldOptions options = any_options(random);
     DistanceField field = field_for(world.map(), options);
-    BruteDistance truth(options.max_distance_m / kRestlessCell_m);
+    BruteDistance truth(options.max_distance_m / kRestlessVoxel_m);
     for (int i = 0; i < 20; ++i) {
       const MapSnapshot map = world.changed();
       if (random.chance(0.2)) continue;  // a field need not see every frame
@@ -121,10 +121,10 @@ TEST(DistanceField, follows_a_place_with_a_box_smaller_than_the_window) {
 // Versions count from one in every map, so those of two maps are alike.
 TEST(DistanceField, does_not_take_one_map_for_another_whose_versions_are_alike) {
   const auto map_with = [](const VoxelIndex& obstacle) {
-    auto map = RollingMap::create({.voxel_m = kRestlessCell_m, .size_m = {4, 4, 4}});
+    auto map = RollingMap::create({.voxel_m = kRestlessVoxel_m, .size_m = {4, 4, 4}});
     map->recentre(Eigen::Vector3d::Zero(), nullptr);
-    for_each_block(map->window(), [&](const BlockIndex& b) { map->writable(b).cells.fill(20); });
-    map->writable(block_of(obstacle)).cells[offset_in_block(obstacle)] = 220;
+    for_each_block(map->window(), [&](const BlockIndex& b) { map->writable(b).voxels.fill(20); });
+    map->writable(block_of(obstacle)).voxels[offset_in_block(obstacle)] = 220;
     return std::move(*map);
   };
   RollingMap first = map_with({1, 1, 1}), second = map_with({-3, 2, 0});

@@ -29,7 +29,7 @@ struct Flight {
     return *DistanceFieldThread::start(map->reader(), 0.2, map->window().size, options);
   }
 
-  /// The next frame: the vehicle has moved on, and some cells changed.
+  /// The next frame: the vehicle has moved on, and some voxels changed.
   void fly_on() {
     vehicle += random.vector(-0.3, 0.4);
     map->recentre(vehicle, nullptr);
@@ -38,7 +38,8 @@ struct Flight {
       const BlockIndex b{w.first.x + random.integer(0, w.size.x - 1),
                          w.first.y + random.integer(0, w.size.y - 1),
                          w.first.z + random.integer(0, w.size.z - 1)};
-      for (QuantizedLogOdds& cell : map->writable(b).cells) cell = random.chance(0.02) ? 220 : 20;
+      for (QuantizedLogOdds& voxel : map->writable(b).voxels)
+        voxel = random.chance(0.02) ? 220 : 20;
     }
     map->publish({++frames});
   }
@@ -166,7 +167,7 @@ TEST(DistanceFieldThread, says_why_it_cannot_start) {
       DistanceFieldThread::start(map->reader(), 0.2, map->window().size, {.max_distance_m = -1.0});
   ASSERT_FALSE(thread);
   EXPECT_EQ(thread.error().text(),
-            "distance field: max_distance_m is less than a cell; give at least the map's voxel_m");
+            "distance field: max_distance_m is less than a voxel; give at least the map's voxel_m");
 }
 
 }  // namespace

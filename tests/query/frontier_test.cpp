@@ -16,11 +16,11 @@ namespace {
 
 using test::HandMadeMap;
 using test::Random;
-using Cells = std::set<VoxelIndex>;
+using Voxels = std::set<VoxelIndex>;
 
-/// Every cell of the window, looked at one by one.
-Cells frontier_by_hand(const MapSnapshot& map, const OccupancyThresholds& thresholds) {
-  Cells found;
+/// Every voxel of the window, looked at one by one.
+Voxels frontier_by_hand(const MapSnapshot& map, const OccupancyThresholds& thresholds) {
+  Voxels found;
   const VoxelBox window = voxel_box(map.window());
   const auto is = [&](const VoxelIndex& v, Occupancy state) {
     return window.contains(v) && thresholds.classify(map.log_odds(v)) == state;
@@ -42,11 +42,11 @@ Cells frontier_by_hand(const MapSnapshot& map, const OccupancyThresholds& thresh
   return found;
 }
 
-Cells cells_of(const FrontierMap& frontier) {
-  Cells cells;
-  frontier.for_each_cell([&](const VoxelIndex& v) { cells.insert(v); });
-  EXPECT_EQ(cells.size(), frontier.cell_count());
-  return cells;
+Voxels voxels_of(const FrontierMap& frontier) {
+  Voxels voxels;
+  frontier.for_each_voxel([&](const VoxelIndex& v) { voxels.insert(v); });
+  EXPECT_EQ(voxels.size(), frontier.voxel_count());
+  return voxels;
 }
 
 /// A few boxes of random belief, as frames bring them.
@@ -62,7 +62,7 @@ void change_something(RollingMap& map, Random& random) {
     for (VoxelIndex v = a; v.z <= std::min(a.z + edge, window.last.z); ++v.z) {
       for (v.y = a.y; v.y <= std::min(a.y + edge, window.last.y); ++v.y) {
         for (v.x = a.x; v.x <= std::min(a.x + edge, window.last.x); ++v.x) {
-          map.writable(block_of(v)).cells[offset_in_block(v)] =
+          map.writable(block_of(v)).voxels[offset_in_block(v)] =
               is_noise ? static_cast<QuantizedLogOdds>(random.integer(0, 255)) : value;
         }
       }
@@ -70,9 +70,9 @@ void change_something(RollingMap& map, Random& random) {
   }
 }
 
-TEST(Frontier, is_what_a_search_of_all_cells_finds_after_every_frame_and_move) {
+TEST(Frontier, is_what_a_search_of_all_voxels_finds_after_every_frame_and_move) {
   Random random;
-  std::size_t most_cells = 0;
+  std::size_t most_voxels = 0;
   for (int flight = 0; flight < 6; ++flight) {
     HandMadeMap world(0.1, {2.4, 1.6, 1.0});
     OccupancyThresholds thresholds;
@@ -87,12 +87,12 @@ TEST(Frontier, is_what_a_search_of_all_cells_finds_after_every_frame_and_move) {
       const MapSnapshot map = world.snapshot();
       if (random.chance(0.2)) continue;  // a reader that was late
       frontier.update(map);
-      ASSERT_EQ(cells_of(frontier), frontier_by_hand(map, thresholds))
+      ASSERT_EQ(voxels_of(frontier), frontier_by_hand(map, thresholds))
           << random.repeat() << ", flight " << flight << ", frame " << frame;
-      most_cells = std::max(most_cells, frontier.cell_count());
+      most_voxels = std::max(most_voxels, frontier.voxel_count());
     }
   }
-  EXPECT_GT(most_cells, 100U);
+  EXPECT_GT(most_voxels, 100U);
 }
 
 TEST(Frontier, costs_what_changed) {
@@ -118,39 +118,40 @@ TEST(Frontier, begins_again_with_another_map) {
   second.fill({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, test::kFree);
   const MapSnapshot map = second.snapshot();
   frontier.update(map);
-  EXPECT_EQ(cells_of(frontier), frontier_by_hand(map, {}));
+  EXPECT_EQ(voxels_of(frontier), frontier_by_hand(map, {}));
 }
 
 TEST(FrontierClusters, have_their_middle_size_and_a_normal_into_the_unknown) {
   HandMadeMap world(0.1, {8, 8, 4});
   world.fill_window(test::kOccupied);
-  world.fill({-2.95, -0.95, -0.45}, {2.95, 0.95, 0.45}, test::kFree);  // a corridor along x,
-  world.fill({3.05, -0.95, -0.45}, {3.45, 0.95, 0.45}, kUnknownCell);  // open at its end
+  world.fill({-2.95, -0.95, -0.45}, {2.95, 0.95, 0.45}, test::kFree);   // a corridor along x,
+  world.fill({3.05, -0.95, -0.45}, {3.45, 0.95, 0.45}, kUnknownVoxel);  // open at its end
   FrontierMap frontier;
   frontier.update(world.snapshot());
   const FrontierClusters found = cluster_frontier(frontier);
   ASSERT_EQ(found.clusters.size(), 1U);
   const FrontierCluster& end = found.clusters.front();
-  EXPECT_EQ(end.cell_count, 20U * 10U);
+  EXPECT_EQ(end.voxel_count, 20U * 10U);
   EXPECT_NEAR((end.centroid_m - Eigen::Vector3d(2.95, 0.0, 0.0)).norm(), 0.0, 1e-9);
   EXPECT_EQ(end.normal, Eigen::Vector3d::UnitX());
-  EXPECT_TRUE(cluster_frontier(frontier, {.min_cells = 201}).clusters.empty());
+  EXPECT_TRUE(cluster_frontier(frontier, {.min_voxels = 201}).clusters.empty());
 }
 
-TEST(FrontierClusters, hold_every_cell_once_and_none_is_larger_than_asked_for) {
+TEST(FrontierClusters, hold_every_voxel_once_and_none_is_larger_than_asked_for) {
   Random random;
   HandMadeMap world(0.1, {4, 4, 2});
   for (int i = 0; i < 10; ++i) change_something(world.map(), random);
   FrontierMap frontier;
   frontier.update(world.snapshot());
-  const FrontierClusters found = cluster_frontier(frontier, {.max_extent_m = 0.5, .min_cells = 1});
-  EXPECT_EQ(Cells(found.cells.begin(), found.cells.end()), cells_of(frontier)) << random.repeat();
-  EXPECT_EQ(found.cells.size(), frontier.cell_count());
+  const FrontierClusters found = cluster_frontier(frontier, {.max_extent_m = 0.5, .min_voxels = 1});
+  EXPECT_EQ(Voxels(found.voxels.begin(), found.voxels.end()), voxels_of(frontier))
+      << random.repeat();
+  EXPECT_EQ(found.voxels.size(), frontier.voxel_count());
   EXPECT_GT(found.clusters.size(), 3U);
   for (const FrontierCluster& cluster : found.clusters) {
-    const auto cells = found.cells_of(cluster);
-    VoxelBox box{cells.front(), cells.front()};
-    for (const VoxelIndex& v : cells) box.include(v);
+    const auto voxels = found.voxels_of(cluster);
+    VoxelBox box{voxels.front(), voxels.front()};
+    for (const VoxelIndex& v : voxels) box.include(v);
     EXPECT_LT(box.last.x - box.first.x, 5);
     EXPECT_LT(box.last.y - box.first.y, 5);
     EXPECT_LT(box.last.z - box.first.z, 5);

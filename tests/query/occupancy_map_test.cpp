@@ -20,8 +20,8 @@ static_assert(OccupancyMap<RollingMap> && OccupancyMap<MapSnapshot> && Occupancy
 RollingMap live_map_of(const test::MapModel& model) {
   auto map = RollingMap::create({model.voxel_m, {4.0, 3.0, 2.0}, {0.5, 0.5, 0.5}}, model.scale);
   map->recentre({0.3, -0.2, 0.1}, nullptr);
-  for (const auto& [v, cell] : model.cells)
-    map->writable(block_of(v)).cells[offset_in_block(v)] = cell;
+  for (const auto& [v, voxel] : model.voxels)
+    map->writable(block_of(v)).voxels[offset_in_block(v)] = voxel;
   return std::move(*map);
 }
 
@@ -43,7 +43,7 @@ TEST(OccupancyMap, live_map_snapshot_and_copy_in_memory_answer_alike) {
 
 TEST(OccupancyMap, a_place_that_is_none_is_unknown) {
   BlockMap map;
-  map.set({}, kOccupiedCell);
+  map.set({}, kOccupiedVoxel);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double odd : {nan, 1e300, -1e300, 4.3e8, std::numeric_limits<double>::infinity()}) {
     EXPECT_EQ(map.occupancy(Eigen::Vector3d(0.1, odd, 0.1)), Occupancy::kUnknown) << odd;
@@ -52,11 +52,11 @@ TEST(OccupancyMap, a_place_that_is_none_is_unknown) {
   EXPECT_EQ(map.occupancy(Eigen::Vector3d(0.1, 0.1, 0.1)), Occupancy::kOccupied);
 }
 
-TEST(MapSnapshot, tells_its_age_its_pose_and_how_its_cells_are_read) {
+TEST(MapSnapshot, tells_its_age_its_pose_and_how_its_voxels_are_read) {
   auto map = RollingMap::create({0.1, {4.0, 3.0, 2.0}, {0.5, 0.5, 0.5}}, {{50, 250}, 0.1});
   ASSERT_TRUE(map);
   map->recentre(Eigen::Vector3d::Zero(), nullptr);
-  map->writable({0, 0, 0}).cells[0] = 240;
+  map->writable({0, 0, 0}).voxels[0] = 240;
   const auto at = Transform<World, Camera>::trusted(Eigen::Quaterniond::Identity(), {1, 2, 3});
   const auto first = map->snapshot({7, Stamp{123'456}, at});
   const auto second = map->snapshot({8, Stamp{123'500}, {}});
@@ -93,7 +93,7 @@ TEST(CopyBox, refuses_a_buffer_that_is_too_small) {
   EXPECT_DEATH(copy_box(map, {{0, 0, 0}, {1, 1, 1}}, std::span<QuantizedLogOdds>(buffer)), "room");
 }
 
-TEST(VoxelBox, counts_its_cells_however_many) {
+TEST(VoxelBox, counts_its_voxels_however_many) {
   EXPECT_EQ((VoxelBox{{0, 0, 0}, {0, 0, 0}}).voxel_count(), 1U);
   EXPECT_EQ((VoxelBox{{-1, 2, 3}, {1, 5, 3}}).voxel_count(), 12U);
   constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();

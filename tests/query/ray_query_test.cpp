@@ -9,8 +9,8 @@
 
 #include "support/seeds.hpp"
 #include "swiftlet/map/rolling_map.hpp"
-#include "swiftlet/query/cell_counts.hpp"
 #include "swiftlet/query/occupancy_query.hpp"
+#include "swiftlet/query/voxel_counts.hpp"
 
 namespace swiftlet {
 namespace {
@@ -24,15 +24,15 @@ RollingMap random_map(Random& random) {
   map->recentre(Eigen::Vector3d::Zero(), nullptr);
   for_each_block(map->window(), [&](const BlockIndex& b) {
     if (random.chance(0.2)) return;
-    for (QuantizedLogOdds& cell : map->writable(b).cells) {
-      cell = random.chance(0.03) ? 200 : random.chance(0.03) ? kUnknownCell : 20;
+    for (QuantizedLogOdds& voxel : map->writable(b).voxels) {
+      voxel = random.chance(0.03) ? 200 : random.chance(0.03) ? kUnknownVoxel : 20;
     }
   });
   return std::move(*map);
 }
 
-/// The first cell along the way that is not free, found by walking in steps of a thousandth of a
-/// cell.
+/// The first voxel along the way that is not free, found by walking in steps of a thousandth of a
+/// voxel.
 RayHit walk(const MapSnapshot& map, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
             UnknownSpace unknown) {
   const double length = (to - from).norm();
@@ -58,8 +58,8 @@ TEST(CastRay, finds_what_a_walk_in_tiny_steps_finds) {
     const auto unknown = random.chance(0.5) ? UnknownSpace::kStops : UnknownSpace::kPasses;
     const RayHit hit = cast_ray(*snapshot, from, to, kThresholds, unknown);
     const RayHit expected = walk(*snapshot, from, to, unknown);
-    // The walk may step over a corner of less than a thousandth of a cell; then ours is nearer, and
-    // that cell real.
+    // The walk may step over a corner of less than a thousandth of a voxel; then ours is nearer,
+    // and that voxel real.
     if (hit.distance_m < expected.distance_m - 2e-3 * kVoxel_m) {
       ASSERT_EQ(kThresholds.classify(snapshot->log_odds(hit.voxel)), hit.state) << random.repeat();
       continue;
@@ -82,16 +82,16 @@ TEST(CastRay, calls_space_outside_the_window_unknown) {
             Occupancy::kFree);
 }
 
-TEST(CountCells, counts_every_cell_of_the_known_blocks_once) {
+TEST(CountVoxels, counts_every_voxel_of_the_known_blocks_once) {
   Random random;
   RollingMap map = random_map(random);
   const auto snapshot = map.snapshot({1});
   std::size_t blocks = 0, occupied = 0;
   snapshot->for_each_known_block([&](const BlockIndex&, const VoxelBlock& block) {
     ++blocks;
-    occupied += static_cast<std::size_t>(std::ranges::count(block.cells, 200));
+    occupied += static_cast<std::size_t>(std::ranges::count(block.voxels, 200));
   });
-  const CellCounts counts = count_cells(*snapshot, kThresholds);
+  const VoxelCounts counts = count_voxels(*snapshot, kThresholds);
   EXPECT_EQ(counts.free + counts.unknown + counts.occupied, blocks * kBlockVoxels);
   EXPECT_EQ(counts.occupied, occupied);
 }

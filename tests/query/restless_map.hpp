@@ -15,14 +15,14 @@
 
 namespace swiftlet::test {
 
-inline constexpr double kRestlessCell_m = 0.25;
+inline constexpr double kRestlessVoxel_m = 0.25;
 
-/// A map that changes at random: cells, whole blocks, and where its window is.
+/// A map that changes at random: voxels, whole blocks, and where its window is.
 class RestlessMap {
  public:
   RestlessMap(Random& random, const Eigen::Vector3d& size_m) : random_(random) {
     map_ = *RollingMap::create(
-        {.voxel_m = kRestlessCell_m, .size_m = size_m, .trigger_m = {0.01, 0.01, 0.01}});
+        {.voxel_m = kRestlessVoxel_m, .size_m = size_m, .trigger_m = {0.01, 0.01, 0.01}});
     map_->recentre(vehicle_, nullptr);
     for_each_block(map_->window(), [&](const BlockIndex& b) {
       if (random_.chance(0.6)) fill(b, 0.02);
@@ -42,8 +42,8 @@ class RestlessMap {
         map_->writable(b).clear();
       } else {
         for (int n = random_.integer(1, 20); n > 0; --n)
-          map_->writable(b).cells[random_.integer<std::size_t>(0, kBlockVoxels - 1)] =
-              any_cell(0.4);
+          map_->writable(b).voxels[random_.integer<std::size_t>(0, kBlockVoxels - 1)] =
+              any_value(0.4);
       }
     }
     return *map_->snapshot({++frames_});
@@ -59,11 +59,11 @@ class RestlessMap {
       if (random_.chance(0.5)) fill(b, 0.02);
     });
   }
-  QuantizedLogOdds any_cell(double occupied) {
-    return random_.chance(occupied) ? 220 : random_.chance(0.1) ? kUnknownCell : 20;
+  QuantizedLogOdds any_value(double occupied) {
+    return random_.chance(occupied) ? 220 : random_.chance(0.1) ? kUnknownVoxel : 20;
   }
   void fill(const BlockIndex& b, double occupied) {
-    for (QuantizedLogOdds& cell : map_->writable(b).cells) cell = any_cell(occupied);
+    for (QuantizedLogOdds& voxel : map_->writable(b).voxels) voxel = any_value(occupied);
   }
   BlockIndex any_block() {
     const BlockWindow& w = map_->window();

@@ -18,7 +18,7 @@ namespace {
 using test::HandMadeMap;
 using test::Random;
 
-constexpr double kPlanCell_m = 0.1;
+constexpr double kPlanVoxel_m = 0.1;
 
 /// A box of space, turned about the vertical.
 struct Room {
@@ -38,7 +38,7 @@ void carve(HandMadeMap& world, IsAir&& is_air) {
   for (VoxelIndex v = box.first; v.z <= box.last.z; ++v.z) {
     for (v.y = box.first.y; v.y <= box.last.y; ++v.y) {
       for (v.x = box.first.x; v.x <= box.last.x; ++v.x) {
-        if (is_air(centre_of(v, kPlanCell_m))) world.set(v, test::kFree);
+        if (is_air(centre_of(v, kPlanVoxel_m))) world.set(v, test::kFree);
       }
     }
   }
@@ -60,7 +60,7 @@ void look_around(const MapSnapshot& truth, const Eigen::Vector3d& p_world, HandM
 TEST(RoomMiddle, is_that_of_a_rectangle_wherever_the_vehicle_is_in_it) {
   Random random;
   for (int i = 0; i < 100; ++i) {
-    HandMadeMap world(kPlanCell_m, {10, 10, 1});
+    HandMadeMap world(kPlanVoxel_m, {10, 10, 1});
     Room room{random.vector(-1, 1).head<2>(),
               {random.real(0.8, 3.5), random.real(0.8, 3.0)},
               random.real(0.0, 3.0)};
@@ -87,13 +87,13 @@ TEST(RoomMiddle, of_ten_offices_is_found_after_one_turn_in_place) {
     const Room corridor{{0.0, front - 0.9}, {4.5, 0.7}};
     const Room door{{0.0, random.real(0.4, 1.6)}, {0.2, 0.45}};
     const Room way_out{{-0.5 * width, front - 0.1}, {0.45, 0.2}};
-    HandMadeMap truth(kPlanCell_m, {10, 10, 1});
+    HandMadeMap truth(kPlanVoxel_m, {10, 10, 1});
     truth.fill_window(test::kOccupied);
     carve(truth, [&](const Eigen::Vector3d& p) {
       return here.contains(p) || beside.contains(p) || corridor.contains(p) || door.contains(p) ||
              way_out.contains(p);
     });
-    HandMadeMap seen(kPlanCell_m, {10, 10, 1});
+    HandMadeMap seen(kPlanVoxel_m, {10, 10, 1});
     const Eigen::Vector2d at =
         here.middle + 0.5 * here.half.cwiseProduct(random.vector(-1, 1).head<2>());
     look_around(truth.snapshot(), {at.x(), at.y(), 0.0}, seen);
@@ -105,7 +105,7 @@ TEST(RoomMiddle, of_ten_offices_is_found_after_one_turn_in_place) {
 }
 
 TEST(RoomMiddle, stays_in_a_room_that_is_bent) {
-  HandMadeMap world(kPlanCell_m, {10, 10, 1});
+  HandMadeMap world(kPlanVoxel_m, {10, 10, 1});
   const Room along_x{{0.0, -2.0}, {3.0, 0.8}}, along_y{{-2.2, 0.0}, {0.8, 2.8}};
   carve(world,
         [&](const Eigen::Vector3d& p) { return along_x.contains(p) || along_y.contains(p); });
@@ -116,7 +116,7 @@ TEST(RoomMiddle, stays_in_a_room_that_is_bent) {
 }
 
 TEST(RoomMiddle, is_none_where_there_is_no_room) {
-  HandMadeMap world(kPlanCell_m, {4, 4, 1});
+  HandMadeMap world(kPlanVoxel_m, {4, 4, 1});
   carve(world, [](const Eigen::Vector3d& p) { return std::abs(p.y()) < 0.3; });
   const MapSnapshot map = world.snapshot();
   EXPECT_FALSE(*room_middle(map, {0, 0, 0}));

@@ -53,10 +53,10 @@ struct Placed {
   double radius;
 };
 
-/// Distance from the cube [low, low + a cell]: between the nearest points of the inner box and the
+/// Distance from the cube [low, low + a voxel]: between the nearest points of the inner box and the
 /// cube, found by going from one to the other and back. From above.
-inline double gap_by_hand(const Placed& solid, const Eigen::Vector3d& low, double cell_m) {
-  const Eigen::Vector3d high = low + Eigen::Vector3d::Constant(cell_m);
+inline double gap_by_hand(const Placed& solid, const Eigen::Vector3d& low, double voxel_m) {
+  const Eigen::Vector3d high = low + Eigen::Vector3d::Constant(voxel_m);
   Eigen::Vector3d on_cube = 0.5 * (low + high);
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 300; ++i) {

@@ -20,11 +20,11 @@ namespace {
 using test::HandMadeMap;
 using Vector = Eigen::Vector3d;
 
-constexpr double kFieldCell_m = 0.1;
+constexpr double kFieldVoxel_m = 0.1;
 
 DistanceField field_of(HandMadeMap& made, const MapSnapshot& map,
                        const DistanceFieldOptions& options = {}) {
-  auto field = DistanceField::create(kFieldCell_m, made.map().window().size, options).value();
+  auto field = DistanceField::create(kFieldVoxel_m, made.map().window().size, options).value();
   field.update(map);
   return field;
 }
@@ -50,10 +50,10 @@ std::vector<TimedPose> any_path(test::Random& random) {
 TEST(SweepWithField, answers_as_without_whatever_the_body_and_the_path) {
   int clear = 0, stopped = 0;
   test::for_each_seed(40, [&](test::Random& random) {
-    HandMadeMap made(kFieldCell_m, {4.8, 4.8, 4.8});
+    HandMadeMap made(kFieldVoxel_m, {4.8, 4.8, 4.8});
     made.fill_window(test::kFree);
     for (int i = random.integer(0, 40); i > 0; --i)
-      made.set_at(random.vector(-2.4, 2.4), random.chance(0.5) ? test::kOccupied : kUnknownCell);
+      made.set_at(random.vector(-2.4, 2.4), random.chance(0.5) ? test::kOccupied : kUnknownVoxel);
     const MapSnapshot map = made.snapshot();
     const DistanceField field = field_of(made, map, {.max_distance_m = random.real(0.5, 2.0)});
     for (int i = 0; i < 50; ++i) {
@@ -67,7 +67,7 @@ TEST(SweepWithField, answers_as_without_whatever_the_body_and_the_path) {
       policy.field = &field;
       const auto quick = sweep(map, body, *path, policy).value();
       ASSERT_EQ(quick.state, plain.state) << random.repeat();
-      ASSERT_NEAR(quick.clear_m, plain.clear_m, 2.0 * kFieldCell_m / 16.0) << random.repeat();
+      ASSERT_NEAR(quick.clear_m, plain.clear_m, 2.0 * kFieldVoxel_m / 16.0) << random.repeat();
       ASSERT_EQ(quick.occupied.has_value(), plain.occupied.has_value()) << random.repeat();
       (plain.state == SweepState::kClear ? clear : stopped) += 1;
     }
@@ -77,7 +77,7 @@ TEST(SweepWithField, answers_as_without_whatever_the_body_and_the_path) {
 }
 
 TEST(SweepWithField, refuses_a_field_that_is_not_of_this_map) {
-  HandMadeMap made(kFieldCell_m, {4.8, 4.8, 4.8});
+  HandMadeMap made(kFieldVoxel_m, {4.8, 4.8, 4.8});
   made.fill_window(test::kFree);
   const MapSnapshot map = made.snapshot();
   const DistanceField current = field_of(made, map);

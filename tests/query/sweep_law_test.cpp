@@ -2,7 +2,7 @@
 // Copyright the Swiftlet authors
 
 // Random bodies on random paths through random maps, judged by plain geometry at many places along
-// the path: every cell that is not free, tried one by one.
+// the path: every voxel that is not free, tried one by one.
 
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ using test::random_solid;
 using test::Solid;
 using Vector = Eigen::Vector3d;
 
-constexpr double kLawCell_m = 0.1;
-const double kLawDiagonal_m = std::sqrt(3.0) * kLawCell_m;
+constexpr double kLawVoxel_m = 0.1;
+const double kLawDiagonal_m = std::sqrt(3.0) * kLawVoxel_m;
 
 /// The search of gap_by_hand() ends here, and a sweep leaves out nothing that is as near.
 constexpr double kTouch_m = 1e-8;
@@ -42,7 +42,7 @@ Transform<World, Body> between(const TimedPose& a, const TimedPose& b, double sh
 }
 
 struct World3 {
-  HandMadeMap made{kLawCell_m, {2.4, 2.4, 1.6}};
+  HandMadeMap made{kLawVoxel_m, {2.4, 2.4, 1.6}};
   std::vector<VoxelIndex> not_free;
   std::optional<MapSnapshot> map;
 };
@@ -55,7 +55,7 @@ void fill_randomly(World3& world, Random& random) {
     const VoxelIndex v{random.integer(box.first.x, box.last.x),
                        random.integer(box.first.y, box.last.y),
                        random.integer(box.first.z, box.last.z)};
-    world.made.set(v, random.chance(0.5) ? test::kOccupied : kUnknownCell);
+    world.made.set(v, random.chance(0.5) ? test::kOccupied : kUnknownVoxel);
     world.not_free.push_back(v);
   }
   world.map = world.made.snapshot();
@@ -88,7 +88,7 @@ void along(const std::vector<TimedPose>& poses, int steps, Visit&& visit) {
   }
 }
 
-Vector low_corner(const VoxelIndex& v) { return Vector(v.x, v.y, v.z) * kLawCell_m; }
+Vector low_corner(const VoxelIndex& v) { return Vector(v.x, v.y, v.z) * kLawVoxel_m; }
 
 /// A contact stands at its place: before the one that plain geometry has found.
 void expect_not_late(const std::optional<SweepContact>& contact, std::size_t leg, double share) {
@@ -97,8 +97,8 @@ void expect_not_late(const std::optional<SweepContact>& contact, std::size_t leg
             static_cast<double>(leg) + share + 1e-9);
 }
 
-void expect_no_cell_is_missed(const World3& world, const Solid& solid,
-                              const std::vector<TimedPose>& poses, const SweepAnswer& answer) {
+void expect_no_voxel_is_missed(const World3& world, const Solid& solid,
+                               const std::vector<TimedPose>& poses, const SweepAnswer& answer) {
   const double around = solid.half.norm() + solid.radius + kLawDiagonal_m;
   along(poses, 7, [&](std::size_t leg, double share, const Transform<World, Body>& T) {
     if (::testing::Test::HasFailure()) return;
@@ -106,8 +106,8 @@ void expect_no_cell_is_missed(const World3& world, const Solid& solid,
     const Vector& middle = placed.centre;
     for (const VoxelIndex& v : world.not_free) {
       if ((low_corner(v) - middle).squaredNorm() > around * around) continue;
-      if (gap_by_hand(placed, low_corner(v), kLawCell_m) > kTouch_m) continue;
-      const bool is_unknown = world.map->log_odds(v) == kUnknownCell;
+      if (gap_by_hand(placed, low_corner(v), kLawVoxel_m) > kTouch_m) continue;
+      const bool is_unknown = world.map->log_odds(v) == kUnknownVoxel;
       expect_not_late(is_unknown ? answer.unknown : answer.occupied, leg, share);
     }
     const BlockWindow& window = world.map->window();
@@ -120,16 +120,16 @@ void expect_no_cell_is_missed(const World3& world, const Solid& solid,
   });
 }
 
-/// What is called a contact is one: at that place, the body grown by a diagonal touches that cell.
+/// What is called a contact is one: at that place, the body grown by a diagonal touches that voxel.
 void expect_contact_is_real(const World3& world, const Solid& solid,
                             const std::vector<TimedPose>& poses, const SweepContact& contact) {
   EXPECT_EQ(OccupancyThresholds{}.classify(world.map->log_odds(contact.voxel)), contact.state);
   const std::size_t next = std::min(contact.leg + 1, poses.size() - 1);
   const auto T = between(poses[contact.leg], poses[next], contact.leg_share);
-  EXPECT_LE(gap_by_hand(Placed(solid, T), low_corner(contact.voxel), kLawCell_m), kLawDiagonal_m);
+  EXPECT_LE(gap_by_hand(Placed(solid, T), low_corner(contact.voxel), kLawVoxel_m), kLawDiagonal_m);
 }
 
-TEST(SweepLaw, never_misses_a_cell_that_the_body_touches_and_never_invents_one) {
+TEST(SweepLaw, never_misses_a_voxel_that_the_body_touches_and_never_invents_one) {
   constexpr int kWorlds = 500, kBodies = 200;  // 10^5 sweeps
   Random random;
   std::array<int, 3> met{};
@@ -143,7 +143,7 @@ TEST(SweepLaw, never_misses_a_cell_that_the_body_touches_and_never_invents_one) 
       const auto answer = sweep(*world.map, solid.shape(), *SweepPath::of(poses));
       ASSERT_TRUE(answer);
       ++met[static_cast<std::size_t>(answer->state)];
-      expect_no_cell_is_missed(world, solid, poses, *answer);
+      expect_no_voxel_is_missed(world, solid, poses, *answer);
       for (const auto& contact : {answer->unknown, answer->occupied})
         if (contact) expect_contact_is_real(world, solid, poses, *contact);
     }
@@ -168,16 +168,16 @@ TEST(SweepLaw, clearance_is_never_more_than_what_plain_geometry_finds_and_hardly
       along(poses, 100, [&](std::size_t, double, const Transform<World, Body>& T) {
         const Placed placed(solid, T);
         for (const VoxelIndex& v : world.not_free) {
-          if (world.map->log_odds(v) == kUnknownCell) continue;
+          if (world.map->log_odds(v) == kUnknownVoxel) continue;
           const double around = solid.half.norm() + solid.radius + kLawDiagonal_m + least;
           if ((low_corner(v) - placed.centre).squaredNorm() > around * around) continue;
-          least = std::min(least, gap_by_hand(placed, low_corner(v), kLawCell_m));
+          least = std::min(least, gap_by_hand(placed, low_corner(v), kLawVoxel_m));
         }
       });
       ASSERT_LE(answer->clearance->at_least_m, least + 1e-6);
-      // A quarter of a cell for the turn within a piece; steps of the reference are up to 1.5 cells
-      // and, turning, half a cell more.
-      ASSERT_GE(answer->clearance->at_least_m, least - 0.8 * kLawCell_m);
+      // A quarter of a voxel for the turn within a piece; steps of the reference are up to 1.5
+      // voxels and, turning, half a voxel more.
+      ASSERT_GE(answer->clearance->at_least_m, least - 0.8 * kLawVoxel_m);
       compared += least < kReach ? 1 : 0;
     }
   }

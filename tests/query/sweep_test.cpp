@@ -19,8 +19,8 @@ namespace {
 using test::HandMadeMap;
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double kSweepCell_m = 0.1;
-constexpr double kFine_m = kSweepCell_m / 16.0;  // to which contacts are told
+constexpr double kSweepVoxel_m = 0.1;
+constexpr double kFine_m = kSweepVoxel_m / 16.0;  // to which contacts are told
 
 SweepAnswer swept(const MapSnapshot& map, const BodyShape& body, const Points& points,
                   const SweepPolicy& policy = {}) {
@@ -36,8 +36,8 @@ Transform<World, Body> turned(double yaw_rad, const Eigen::Vector3d& p = {0, 0, 
       Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())), p);
 }
 
-TEST(Sweep, is_clear_where_all_cells_are_free_and_stops_before_a_wall) {
-  HandMadeMap world(kSweepCell_m, {8, 8, 3});
+TEST(Sweep, is_clear_where_all_voxels_are_free_and_stops_before_a_wall) {
+  HandMadeMap world(kSweepVoxel_m, {8, 8, 3});
   world.fill({-3.95, -3.95, -1.45}, {3.95, 3.95, 1.45}, test::kFree);
   world.fill({3.0, -3.95, -1.45}, {3.09, 3.95, 1.45}, test::kOccupied);
   const auto map = world.snapshot();
@@ -59,9 +59,9 @@ TEST(Sweep, is_clear_where_all_cells_are_free_and_stops_before_a_wall) {
 }
 
 TEST(Sweep, tells_unknown_space_from_matter_and_both_from_each_other) {
-  HandMadeMap world(kSweepCell_m, {8, 8, 3});
+  HandMadeMap world(kSweepVoxel_m, {8, 8, 3});
   world.fill({-3.95, -1, -1}, {3.95, 1, 1}, test::kFree);
-  world.fill({1.0, -1, -1}, {1.09, 1, 1}, kUnknownCell);
+  world.fill({1.0, -1, -1}, {1.09, 1, 1}, kUnknownVoxel);
   world.fill({2.0, -1, -1}, {2.09, 1, 1}, test::kOccupied);
   const auto map = world.snapshot();
   const auto body = BodyShape::sphere(0.3);
@@ -79,10 +79,10 @@ TEST(Sweep, tells_unknown_space_from_matter_and_both_from_each_other) {
 }
 
 TEST(Sweep, calls_what_lies_outside_the_window_unknown) {
-  HandMadeMap world(kSweepCell_m, {4, 4, 2});
+  HandMadeMap world(kSweepVoxel_m, {4, 4, 2});
   world.fill_window(test::kFree);
   const auto map = world.snapshot();
-  const double rim_m = map.window().end().x * kBlockEdge * kSweepCell_m;
+  const double rim_m = map.window().end().x * kBlockEdge * kSweepVoxel_m;
   const auto body = BodyShape::sphere(0.3);
   const SweepAnswer out = swept(map, *body, {{0, 0, 0}, {50, 0, 0}});
   EXPECT_EQ(out.state, SweepState::kUnknown);
@@ -97,7 +97,7 @@ TEST(Sweep, calls_what_lies_outside_the_window_unknown) {
 }
 
 TEST(Sweep, sees_what_a_turning_body_touches_between_two_poses_that_are_clear) {
-  HandMadeMap world(kSweepCell_m, {6, 6, 2});
+  HandMadeMap world(kSweepVoxel_m, {6, 6, 2});
   world.fill_window(test::kFree);
   world.fill({-2.9, 0.75, -0.9}, {2.9, 0.75, 0.9}, test::kOccupied);  // from y = 0.7 on
   const auto map = world.snapshot();
@@ -120,7 +120,7 @@ TEST(Sweep, sees_what_a_turning_body_touches_between_two_poses_that_are_clear) {
 }
 
 TEST(Sweep, tells_the_least_clearance_and_where_it_is) {
-  HandMadeMap world(kSweepCell_m, {8, 8, 3});
+  HandMadeMap world(kSweepVoxel_m, {8, 8, 3});
   world.fill_window(test::kFree);
   world.set_at({1.05, 0.75, 0.05}, test::kOccupied);
   const auto map = world.snapshot();
@@ -130,8 +130,8 @@ TEST(Sweep, tells_the_least_clearance_and_where_it_is) {
   EXPECT_EQ(passing.state, SweepState::kClear);
   ASSERT_TRUE(passing.clearance && passing.clearance->voxel);
   EXPECT_LE(passing.clearance->at_least_m, 0.35);
-  EXPECT_NEAR(passing.clearance->at_least_m, 0.35, 0.02 * kSweepCell_m);
-  EXPECT_EQ(*passing.clearance->voxel, voxel_containing({1.05, 0.75, 0.05}, kSweepCell_m));
+  EXPECT_NEAR(passing.clearance->at_least_m, 0.35, 0.02 * kSweepVoxel_m);
+  EXPECT_EQ(*passing.clearance->voxel, voxel_containing({1.05, 0.75, 0.05}, kSweepVoxel_m));
   EXPECT_NEAR(passing.clearance->path_m, 3.05, 0.06);
 
   const SweepAnswer far =
@@ -144,7 +144,7 @@ TEST(Sweep, tells_the_least_clearance_and_where_it_is) {
 }
 
 TEST(Sweep, takes_a_union_for_all_its_parts) {
-  HandMadeMap world(kSweepCell_m, {6, 6, 2});
+  HandMadeMap world(kSweepVoxel_m, {6, 6, 2});
   world.fill_window(test::kFree);
   world.set_at({1.05, 0.95, 0.05}, test::kOccupied);
   const auto map = world.snapshot();
@@ -176,7 +176,7 @@ TEST(Sweep, answers_or_refuses_with_what_to_do_whatever_it_is_given) {
   EXPECT_EQ(SweepPath::of(back).error().text(),
             "path: time goes back at pose 1, from 2 ns to 1 ns; sort the poses by time");
 
-  HandMadeMap world(kSweepCell_m, {2, 2, 1});
+  HandMadeMap world(kSweepVoxel_m, {2, 2, 1});
   world.fill_window(test::kFree);
   const auto map = world.snapshot();
   const Points here{{0, 0, 0}};
@@ -191,7 +191,7 @@ TEST(Sweep, answers_or_refuses_with_what_to_do_whatever_it_is_given) {
 }
 
 TEST(FreeDistance, ends_where_the_body_would_touch_something) {
-  HandMadeMap world(kSweepCell_m, {8, 8, 3});
+  HandMadeMap world(kSweepVoxel_m, {8, 8, 3});
   world.fill_window(test::kFree);
   world.fill({3.0, -3, -1}, {3.09, 3, 1}, test::kOccupied);
   const auto map = world.snapshot();

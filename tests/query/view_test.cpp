@@ -22,7 +22,7 @@ using test::Random;
 void make_room(HandMadeMap& world) {
   world.fill({-4.05, -3.05, -1.35}, {4.05, 3.05, 1.35}, test::kOccupied);
   world.fill({-3.95, -2.95, -1.25}, {3.95, 2.95, 1.25}, test::kFree);
-  world.fill({2.55, -1.45, -1.25}, {3.95, 1.45, 1.25}, kUnknownCell);
+  world.fill({2.55, -1.45, -1.25}, {3.95, 1.45, 1.25}, kUnknownVoxel);
 }
 
 Transform<World, Camera> looking(double yaw_rad, const Eigen::Vector3d& p_world) {
@@ -46,15 +46,15 @@ TEST(FindView, stands_where_the_body_is_clear_and_sees_the_cluster) {
   const auto body = BodyShape::sphere(0.3);
   const ViewCamera camera;
   for (const FrontierCluster& cluster : found.clusters) {
-    const auto cells = found.cells_of(cluster);
-    const auto view = find_view(map, cluster, cells, camera, *body);
+    const auto voxels = found.voxels_of(cluster);
+    const auto view = find_view(map, cluster, voxels, camera, *body);
     ASSERT_TRUE(view && *view);
     const TimedPose here{{}, (*view)->T_world_body};
     EXPECT_EQ(sweep(map, *body, *SweepPath::of({&here, 1}))->state, SweepState::kClear);
-    EXPECT_GE((*view)->cells_seen * 10, (*view)->cells_tried * 7);
-    const std::size_t seen = cells_in_sight(
-        map, cells, (*view)->T_world_body * camera.T_body_camera, camera, OccupancyThresholds{});
-    EXPECT_GE(seen * 10, cells.size() * 6) << "most of the cells that were not tried, too";
+    EXPECT_GE((*view)->voxels_seen * 10, (*view)->voxels_tried * 7);
+    const std::size_t seen = voxels_in_sight(
+        map, voxels, (*view)->T_world_body * camera.T_body_camera, camera, OccupancyThresholds{});
+    EXPECT_GE(seen * 10, voxels.size() * 6) << "most of the voxels that were not tried, too";
   }
 }
 
@@ -64,14 +64,14 @@ TEST(FindView, finds_none_where_the_body_does_not_fit) {
   const MapSnapshot map = world.snapshot();
   const FrontierClusters found = clusters_of(map);
   const auto& cluster = found.clusters.front();
-  const auto view = find_view(map, cluster, found.cells_of(cluster), {}, *BodyShape::sphere(2.0));
+  const auto view = find_view(map, cluster, found.voxels_of(cluster), {}, *BodyShape::sphere(2.0));
   ASSERT_TRUE(view);
   EXPECT_FALSE(*view);
-  EXPECT_FALSE(
-      find_view(map, cluster, found.cells_of(cluster), {.hfov_rad = 4.0}, *BodyShape::sphere(0.2)));
+  EXPECT_FALSE(find_view(map, cluster, found.voxels_of(cluster), {.hfov_rad = 4.0},
+                         *BodyShape::sphere(0.2)));
 }
 
-TEST(ViewGain, counts_unknown_cells_in_the_image_up_to_the_first_wall) {
+TEST(ViewGain, counts_unknown_voxels_in_the_image_up_to_the_first_wall) {
   HandMadeMap world(0.1, {9, 7, 4});
   make_room(world);
   const MapSnapshot map = world.snapshot();
@@ -88,8 +88,8 @@ TEST(ViewGain, counts_unknown_cells_in_the_image_up_to_the_first_wall) {
   EXPECT_NEAR(part / (15.0 * 30.0 * 26.0), 0.53, 0.04);
 }
 
-/// How many unknown cells have a point in the image with nothing occupied on the ray to it, of a
-/// grid of points in each cell, 1 (its middle) or 3 a side.
+/// How many unknown voxels have a point in the image with nothing occupied on the ray to it, of a
+/// grid of points in each voxel, 1 (its middle) or 3 a side.
 std::size_t gain_by_hand(const MapSnapshot& map, const Transform<World, Camera>& T,
                          const ViewCamera& camera, int points) {
   std::size_t count = 0;
@@ -109,13 +109,13 @@ std::size_t gain_by_hand(const MapSnapshot& map, const Transform<World, Camera>&
   for (VoxelIndex v = window.first; v.z <= window.last.z; ++v.z) {
     for (v.y = window.first.y; v.y <= window.last.y; ++v.y) {
       for (v.x = window.first.x; v.x <= window.last.x; ++v.x)
-        count += map.log_odds(v) == kUnknownCell && is_in_sight(v) ? 1 : 0;
+        count += map.log_odds(v) == kUnknownVoxel && is_in_sight(v) ? 1 : 0;
     }
   }
   return count;
 }
 
-TEST(ViewGain, lies_between_the_cells_whose_middle_and_those_of_which_any_part_is_in_sight) {
+TEST(ViewGain, lies_between_the_voxels_whose_middle_and_those_of_which_any_part_is_in_sight) {
   Random random;
   for (int i = 0; i < 8; ++i) {
     HandMadeMap world(0.1, {5, 5, 3});
@@ -130,7 +130,7 @@ TEST(ViewGain, lies_between_the_cells_whose_middle_and_those_of_which_any_part_i
     ViewGain gain;
     const auto count = gain.unknown_in_sight(map, T, camera);
     ASSERT_TRUE(count);
-    // Rays go a cell apart and points half a cell: a few cells of a hundred slip through either.
+    // Rays go a voxel apart and points half a voxel: a few voxels of a hundred slip through either.
     EXPECT_GE(static_cast<double>(*count),
               0.95 * static_cast<double>(gain_by_hand(map, T, camera, 1)))
         << random.repeat();

@@ -92,9 +92,9 @@ TEST(InverseSensorModel, lets_distant_walls_dissolve_when_k_is_as_small_as_the_m
   EXPECT_LT(sensor.model().expected_at_surface(sensor.noise().sigma_m(12.0)), 0.0);
 }
 
-// Method 6: one cell's face at distance z is (density / z)^2 full pixels, of which every n x n give
-// one ray.
-TEST(StereoSensor, weighs_a_frame_as_one_observation_of_a_covered_cell_at_any_distance) {
+// Method 6: one voxel's face at distance z is (density / z)^2 full pixels, of which every n x n
+// give one ray.
+TEST(StereoSensor, weighs_a_frame_as_one_observation_of_a_covered_voxel_at_any_distance) {
   for (const int n : {1, 2, 4, 8}) {
     const StereoSensor sensor = d435({}, 0.2, n);
     for (const double z : {0.5, 1.0, 3.0, 9.0}) {
@@ -109,7 +109,7 @@ TEST(StereoSensor, has_the_thesis_s_density_of_86_pixels_within_5_percent) {
   EXPECT_NEAR(1.0 / std::sqrt(d435().weight(1.0)), 86.0, 0.05 * 86.0);
 }
 
-TEST(StereoSensor, gives_the_full_reading_to_a_cell_whose_slice_holds_the_surface) {
+TEST(StereoSensor, gives_the_full_reading_to_a_voxel_whose_slice_holds_the_surface) {
   const StereoSensor sensor = d435();
   const double sigma = sensor.noise().sigma_m(1.0);
   const double peak = sensor.model().log_odds(0.0, sigma);

@@ -15,10 +15,10 @@ namespace {
 
 using test::Random;
 
-constexpr double kCell_m = 0.1;
+constexpr double kVoxel_m = 0.1;
 const double kFreeLogOdds = std::log(0.3 / 0.7);
 
-PrecisionWeightedModel weighted_model() { return {kCell_m, kFreeLogOdds}; }
+PrecisionWeightedModel weighted_model() { return {kVoxel_m, kFreeLogOdds}; }
 
 // From two normal densities, not from their logarithm worked out.
 TEST(PrecisionWeightedModel,
@@ -31,7 +31,7 @@ TEST(PrecisionWeightedModel,
       return std::exp(-0.5 * (z - surface) * (z - surface) / (sigma * sigma));
     };
     const double ratio =
-        std::log(density(middle - 0.5 * kCell_m) / density(middle + 0.5 * kCell_m));
+        std::log(density(middle - 0.5 * kVoxel_m) / density(middle + 0.5 * kVoxel_m));
     const double wanted = std::clamp(double{PrecisionWeightedModel::kIndependence} * ratio,
                                      kFreeLogOdds, double{PrecisionWeightedModel::kMostLogOdds});
     EXPECT_NEAR(weighted_model().evaluate(z_in, z_out, z, sigma).log_odds, wanted, 1e-9);
@@ -39,9 +39,9 @@ TEST(PrecisionWeightedModel,
 }
 
 TEST(PrecisionWeightedModel, says_nothing_of_what_is_hidden) {
-  const double sigma = 0.02, hiding = double{PrecisionWeightedModel::kHidingCells} * kCell_m;
+  const double sigma = 0.02, hiding = double{PrecisionWeightedModel::kHidingVoxels} * kVoxel_m;
   const auto log_odds_at = [&](double z_in) {
-    return weighted_model().evaluate(z_in, z_in + kCell_m, 2.0, sigma).log_odds;
+    return weighted_model().evaluate(z_in, z_in + kVoxel_m, 2.0, sigma).log_odds;
   };
   EXPECT_GT(log_odds_at(2.0), 0.0);
   EXPECT_GT(log_odds_at(2.0 + hiding), 0.0);
@@ -52,14 +52,14 @@ TEST(PrecisionWeightedModel, says_nothing_of_what_is_hidden) {
 
 TEST(PrecisionWeightedModel, lets_a_reading_far_behind_speak_twice_as_loud) {
   const double sigma = 0.02;
-  const double clear = 2.0 + double{PrecisionWeightedModel::kClearCells} * kCell_m +
+  const double clear = 2.0 + double{PrecisionWeightedModel::kClearVoxels} * kVoxel_m +
                        double{PrecisionWeightedModel::kClearSigma} * sigma;
   EXPECT_EQ(weighted_model().evaluate(1.9, 2.0, clear - 0.001, sigma).log_odds, kFreeLogOdds);
   EXPECT_EQ(weighted_model().evaluate(1.9, 2.0, clear + 0.001, sigma).log_odds, 2.0 * kFreeLogOdds);
 }
 
-// A wall at 2 m, and the empty cell that ends at it. One reading of a near view against a thousand
-// of a blurred one that lie, by their bias, half a cell too near.
+// A wall at 2 m, and the empty voxel that ends at it. One reading of a near view against a thousand
+// of a blurred one that lie, by their bias, half a voxel too near.
 TEST(PrecisionWeightedModel, lets_a_sharp_reading_outvote_blurred_ones) {
   const double sharp = weighted_model().evaluate(1.9, 2.0, 2.0, 0.004).log_odds;
   const double blurred = weighted_model().evaluate(1.9, 2.0, 1.94, 0.4).log_odds;
@@ -68,14 +68,14 @@ TEST(PrecisionWeightedModel, lets_a_sharp_reading_outvote_blurred_ones) {
   EXPECT_LT(blurred, 0.005);
 }
 
-TEST(PrecisionWeightedModel, knows_which_rays_end_in_a_cell) {
+TEST(PrecisionWeightedModel, knows_which_rays_end_in_a_voxel) {
   const auto ends = [](double z) { return weighted_model().evaluate(1.9, 2.0, z, 0.004).ends; };
-  const double end = double{PrecisionWeightedModel::kEndCells} * kCell_m;
+  const double end = double{PrecisionWeightedModel::kEndVoxels} * kVoxel_m;
   EXPECT_GT(ends(1.95), 0.0);
   EXPECT_GT(ends(2.0), 0.0) << "poses are not that exact";
   EXPECT_GT(ends(2.0 + 0.9 * end), 0.0);
   EXPECT_LT(ends(2.0 + 1.1 * end), 0.0);
-  // With a fifth of the rays the cell is not free.
+  // With a fifth of the rays the voxel is not free.
   EXPECT_NEAR(ends(1.95) + 4.0 * ends(3.0), 0.0, 1e-6);
 }
 

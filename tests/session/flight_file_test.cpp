@@ -35,7 +35,7 @@ void write_map(const fs::path& path, std::string_view flight, MapMeta meta = {})
   auto store = BlockStore::create(path, 0.1, {.overwrite = true}, meta).value();
   VoxelBlock block;
   block.clear();
-  block.cells[7] = 255;
+  block.voxels[7] = 255;
   store->evict({1, 2, 3}, block, 1);
   ASSERT_TRUE(store->close());
 }
@@ -50,7 +50,7 @@ void write_cut_map(const fs::path& path) {
                      .value();
     VoxelBlock block;
     block.clear();
-    block.cells[7] = 255;
+    block.voxels[7] = 255;
     store->evict({1, 2, 3}, block, 1);
     while (store->stats().blocks_stored == 0) std::this_thread::yield();
     std::raise(SIGKILL);

@@ -74,7 +74,7 @@ TEST(SceneFile, puts_the_box_experiments_where_the_method_wants_them) {
                                    {"small_box", Eigen::Vector3d(0.09, 0.25, 0.185)}}) {
     const auto scene = load_scene(name).value();
     const Eigen::Vector3d camera = scene.flight.at(Nanoseconds(0)).translation();
-    EXPECT_EQ(camera, Eigen::Vector3d(0.1, 0.0, 0.1)) << "mid-cell in x and z, on a boundary in y";
+    EXPECT_EQ(camera, Eigen::Vector3d(0.1, 0.0, 0.1)) << "mid-voxel in x and z, on a boundary in y";
     const auto& box = std::get<Box>(scene.objects.front().shape);
     EXPECT_EQ(box.size_m, size);
     EXPECT_NEAR(box.centre_m.x() - size.x() / 2 - camera.x(), 2.0, 1e-12);

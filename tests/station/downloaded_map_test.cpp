@@ -20,7 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// A map file of the simplest kind: after the frames, each block's index and cells.
+/// A map file of the simplest kind: after the frames, each block's index and voxels.
 std::vector<std::uint8_t> plain_file(const BlockMap& map) {
   std::vector<std::uint8_t> bytes(8);
   std::memcpy(bytes.data(), &map.header().frame_count, 8);
@@ -29,7 +29,8 @@ std::vector<std::uint8_t> plain_file(const BlockMap& map) {
     const std::size_t at = bytes.size();
     bytes.resize(at + sizeof(index) + kBlockVoxels);
     std::memcpy(bytes.data() + at, &index, sizeof(index));
-    std::ranges::copy(block.cells, bytes.begin() + static_cast<std::ptrdiff_t>(at + sizeof(index)));
+    std::ranges::copy(block.voxels,
+                      bytes.begin() + static_cast<std::ptrdiff_t>(at + sizeof(index)));
   }
   return bytes;
 }
@@ -40,7 +41,7 @@ MapDigest digest_of(std::string_view file) {
     BlockIndex index;
     VoxelBlock block;
     std::memcpy(&index, file.data() + at, sizeof(index));
-    std::memcpy(block.cells.data(), file.data() + at + sizeof(index), kBlockVoxels);
+    std::memcpy(block.voxels.data(), file.data() + at + sizeof(index), kBlockVoxels);
     map.put(index, block, 1);
   }
   return map.digest();

@@ -25,7 +25,7 @@ class SlowDownloads : public ::testing::Test {
     MapMirror map(small_info().header);
     VoxelBlock block;
     block.clear();
-    block.cells[0] = 200;
+    block.voxels[0] = 200;
     map.put({0, 0, 0}, block, 1);
     return {small_info(), std::move(map)};
   }

@@ -115,7 +115,7 @@ TEST(MapMirror, forgets_far_blocks_and_never_those_of_the_window) {
   MapMirror mirror({}, kMost);
   VoxelBlock block;
   block.clear();
-  block.cells[3] = 200;
+  block.voxels[3] = 200;
   for (std::int32_t i = 0; i < 300; ++i) mirror.put({i, 0, 0}, block, 1);
   (void)mirror.take_changes();
   auto map = *RollingMap::create({0.1, {2.0, 2.0, 1.0}, {0.5, 0.5, 0.5}});

@@ -166,20 +166,20 @@ TEST(PageProtocol, sends_the_blocks_nearest_to_the_vehicle_first) {
   MapMirror map;
   VoxelBlock block;
   block.clear();
-  block.cells[0] = 200;
+  block.voxels[0] = 200;
   for (std::int32_t i = -200; i <= 200; ++i) map.put({i, 0, 0}, block, 1);
   MapModel model(info, std::move(map));
   Conversation pair(model);
   while (pair.client.blocks.empty()) ASSERT_TRUE(pair.exchange());
   EXPECT_EQ(pair.client.blocks.size(), ClientQueue::kMaxBlocksPerPacket);
-  for (const auto& [index, cells] : pair.client.blocks) EXPECT_LE(std::abs(index.x), 32);
+  for (const auto& [index, voxels] : pair.client.blocks) EXPECT_LE(std::abs(index.x), 32);
 }
 
 TEST(PageProtocol, packs_blocks_that_lie_far_apart) {
   MapMirror map;
   VoxelBlock block;
   block.clear();
-  block.cells[511] = 1;
+  block.voxels[511] = 1;
   for (const std::int32_t x : {-1'000'000, -32768, 0, 32767, 32768, 1'000'000}) {
     map.put({x, -x, x}, block, 1);
   }

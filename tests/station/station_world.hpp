@@ -25,7 +25,7 @@ inline MapInfo small_info() {
   return info;
 }
 
-/// A map and a mapping thread's end of the feed, driven at random: cells change, the vehicle moves
+/// A map and a mapping thread's end of the feed, driven at random: voxels change, the vehicle moves
 /// on, blocks leave the window.
 class RandomFlight {
  public:
@@ -46,7 +46,7 @@ class RandomFlight {
       const VoxelIndex v{at.x + random_.integer(-18, 18), at.y + random_.integer(-18, 18),
                          at.z + random_.integer(-7, 7)};
       if (!map_.window().contains(block_of(v))) continue;
-      map_.writable(block_of(v)).cells[offset_in_block(v)] =
+      map_.writable(block_of(v)).voxels[offset_in_block(v)] =
           static_cast<QuantizedLogOdds>(random_.integer(0, 255));
     }
     map_.publish({++frames_});

@@ -66,9 +66,9 @@ class WireReader {
       ++sum.blocks;
       sum.hash_a += block_hash(index, block, 0);
       sum.hash_b += block_hash(index, block, 1);
-      for (const QuantizedLogOdds cell : block.cells) {
-        sum.occupied += thresholds.classify(cell) == Occupancy::kOccupied ? 1 : 0;
-        sum.free += thresholds.classify(cell) == Occupancy::kFree ? 1 : 0;
+      for (const QuantizedLogOdds voxel : block.voxels) {
+        sum.occupied += thresholds.classify(voxel) == Occupancy::kOccupied ? 1 : 0;
+        sum.free += thresholds.classify(voxel) == Occupancy::kFree ? 1 : 0;
       }
     }
     return sum;
@@ -87,7 +87,7 @@ class WireReader {
                              at<std::int32_t>(message, 24) + at<std::int16_t>(plain, 6 * i + 2),
                              at<std::int32_t>(message, 28) + at<std::int16_t>(plain, 6 * i + 4)};
       if (i < known) {
-        std::memcpy(blocks[index].cells.data(), plain.data() + 6 * count + kBlockVoxels * i,
+        std::memcpy(blocks[index].voxels.data(), plain.data() + 6 * count + kBlockVoxels * i,
                     kBlockVoxels);
       } else {
         blocks.erase(index);

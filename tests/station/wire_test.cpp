@@ -25,8 +25,8 @@ void expect_golden(const std::string& name, const Bytes& bytes) {
 
 VoxelBlock ramp_block(int first) {
   VoxelBlock block;
-  for (std::size_t i = 0; i < block.cells.size(); ++i) {
-    block.cells[i] = static_cast<QuantizedLogOdds>(first + static_cast<int>(i / 2));
+  for (std::size_t i = 0; i < block.voxels.size(); ++i) {
+    block.voxels[i] = static_cast<QuantizedLogOdds>(first + static_cast<int>(i / 2));
   }
   return block;
 }
@@ -66,7 +66,7 @@ TEST(Wire, frames_are_the_golden_file) {
                                                            {1.25, -2.5, 1e6 - 0.125});
   frame.stage_ms = {0.25F, 0.5F, 4.0F, 0.125F};
   frame.readings = 400'000;
-  frame.cells = 12'345;
+  frame.voxels = 12'345;
   frame.blocks_left = 3;
   frame.intrinsics = *PinholeIntrinsics::create(848, 480, 425.5, 426.5, 423.25, 239.75);
   frame.lost = {4, 5, 0, 0, 0, 0, 0, 0};
@@ -102,14 +102,14 @@ TEST(Wire, a_source_whose_name_is_no_text_does_not_break_the_hello) {
   EXPECT_NE(hello_text(info, 1).find("map"), std::string::npos);
 }
 
-TEST(BlockHash, differs_with_every_cell_and_every_coordinate) {
+TEST(BlockHash, differs_with_every_voxel_and_every_coordinate) {
   const VoxelBlock block = ramp_block(0);
   const auto hash = block_hash({1, 2, 3}, block, 0);
   EXPECT_NE(hash, block_hash({1, 2, 3}, block, 1));
   EXPECT_NE(hash, block_hash({2, 1, 3}, block, 0));
-  for (std::size_t i = 0; i < block.cells.size(); ++i) {
+  for (std::size_t i = 0; i < block.voxels.size(); ++i) {
     VoxelBlock other = block;
-    other.cells[i] ^= 1;
+    other.voxels[i] ^= 1;
     EXPECT_NE(hash, block_hash({1, 2, 3}, other, 0));
   }
 }

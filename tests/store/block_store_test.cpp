@@ -32,14 +32,14 @@ void wait_for_batch(const BlockStore& store) {
   while (store.stats().batches < now + 2) std::this_thread::sleep_for(1ms);
 }
 
-/// Changes a few random cells of the window, as a frame does.
+/// Changes a few random voxels of the window, as a frame does.
 void change_some(RollingMap& map, Random& random, int blocks) {
   const BlockWindow& w = map.window();
   for (int i = 0; i < blocks; ++i) {
     const BlockIndex b{w.first.x + random.integer(0, w.size.x - 1),
                        w.first.y + random.integer(0, w.size.y - 1),
                        w.first.z + random.integer(0, w.size.z - 1)};
-    map.writable(b).cells[static_cast<std::size_t>(random.integer(0, 511))] =
+    map.writable(b).voxels[static_cast<std::size_t>(random.integer(0, 511))] =
         static_cast<QuantizedLogOdds>(random.integer(0, 255));
   }
 }

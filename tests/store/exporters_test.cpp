@@ -20,7 +20,7 @@ namespace {
 
 using test::Random;
 using test::TempFolder;
-using Cells = std::map<VoxelIndex, Occupancy>;
+using Voxels = std::map<VoxelIndex, Occupancy>;
 
 constexpr OccupancyThresholds kThresholds;
 
@@ -38,8 +38,8 @@ struct ExportedMap {
     EXPECT_TRUE((*store)->close());
     for (const auto& [index, block] : test::blocks_in(folder / "a.swl")) {
       for (int offset = 0; offset < kBlockVoxels; ++offset) {
-        const auto state = kThresholds.classify(block.cells[static_cast<std::size_t>(offset)]);
-        if (state != Occupancy::kUnknown) cells[voxel_at(index, offset)] = state;
+        const auto state = kThresholds.classify(block.voxels[static_cast<std::size_t>(offset)]);
+        if (state != Occupancy::kUnknown) voxels[voxel_at(index, offset)] = state;
         if (state == Occupancy::kOccupied) ++occupied;
       }
     }
@@ -53,7 +53,7 @@ struct ExportedMap {
     return out;
   }
   TempFolder folder;
-  Cells cells;
+  Voxels voxels;
   std::uint64_t occupied = 0;
 };
 
@@ -68,32 +68,32 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
   return lines;
 }
 
-/// The points of an ASCII PCD, as cells; PCL itself wrote it.
-std::vector<VoxelIndex> cells_of_ascii_pcd(const std::filesystem::path& path) {
-  std::vector<VoxelIndex> cells;
+/// The points of an ASCII PCD, as voxels; PCL itself wrote it.
+std::vector<VoxelIndex> voxels_of_ascii_pcd(const std::filesystem::path& path) {
+  std::vector<VoxelIndex> voxels;
   bool is_data = false;
   for (const std::string& line : lines_of(path)) {
     double x = 0;
     double y = 0;
     double z = 0;
     if (is_data && std::sscanf(line.c_str(), "%lf %lf %lf", &x, &y, &z) == 3) {
-      cells.push_back(voxel_containing({x, y, z}, 0.05));
+      voxels.push_back(voxel_containing({x, y, z}, 0.05));
     }
     is_data = is_data || line.starts_with("DATA ascii");
   }
-  std::ranges::sort(cells);
-  return cells;
+  std::ranges::sort(voxels);
+  return voxels;
 }
 
-std::vector<VoxelIndex> occupied_of(const Cells& cells) {
+std::vector<VoxelIndex> occupied_of(const Voxels& voxels) {
   std::vector<VoxelIndex> occupied;
-  for (const auto& [v, state] : cells) {
+  for (const auto& [v, state] : voxels) {
     if (state == Occupancy::kOccupied) occupied.push_back(v);
   }
   return occupied;
 }
 
-TEST(Exporters, pcl_reads_our_ply_and_pcd_with_exactly_the_occupied_cells) {
+TEST(Exporters, pcl_reads_our_ply_and_pcd_with_exactly_the_occupied_voxels) {
   if (!has_tool("pcl_ply2pcd") || !has_tool("pcl_convert_pcd_ascii_binary")) {
     GTEST_SKIP() << "pcl-tools is not installed";
   }
@@ -103,11 +103,11 @@ TEST(Exporters, pcl_reads_our_ply_and_pcd_with_exactly_the_occupied_cells) {
   };
   run("pcl_convert_pcd_ascii_binary " + map.write("pcd").string() + " " +
       (map.folder / "pcd.txt").string() + " 0");
-  EXPECT_EQ(cells_of_ascii_pcd(map.folder / "pcd.txt"), occupied_of(map.cells));
+  EXPECT_EQ(voxels_of_ascii_pcd(map.folder / "pcd.txt"), occupied_of(map.voxels));
 
   run("pcl_ply2pcd -format 0 " + map.write("ply").string() + " " +
       (map.folder / "ply.pcd").string());
-  EXPECT_EQ(cells_of_ascii_pcd(map.folder / "ply.pcd"), occupied_of(map.cells));
+  EXPECT_EQ(voxels_of_ascii_pcd(map.folder / "ply.pcd"), occupied_of(map.voxels));
 }
 
 TEST(Exporters, leave_nothing_behind_when_they_fail) {
@@ -139,23 +139,23 @@ TEST(Exporters, report_progress_up_to_one) {
 
 /// Points that begin with three numbers of a type, in files whose header ends with a line.
 template <class Number>
-std::vector<VoxelIndex> cells_of_binary(const std::filesystem::path& path,
-                                        std::string_view last_line, std::size_t point_bytes,
-                                        const Eigen::Vector3d& origin_m) {
+std::vector<VoxelIndex> voxels_of_binary(const std::filesystem::path& path,
+                                         std::string_view last_line, std::size_t point_bytes,
+                                         const Eigen::Vector3d& origin_m) {
   const auto bytes = test::bytes_of(path);
   const std::string_view text(bytes.data(), bytes.size());
-  std::vector<VoxelIndex> cells;
+  std::vector<VoxelIndex> voxels;
   for (std::size_t at = text.find(last_line) + last_line.size(); at + point_bytes <= text.size();
        at += point_bytes) {
     Eigen::Matrix<Number, 3, 1> p;
     std::memcpy(p.data(), text.data() + at, sizeof p);
-    cells.push_back(voxel_containing(p.template cast<double>() + origin_m, 0.05));
+    voxels.push_back(voxel_containing(p.template cast<double>() + origin_m, 0.05));
   }
-  std::ranges::sort(cells);
-  return cells;
+  std::ranges::sort(voxels);
+  return voxels;
 }
 
-TEST(Exporters, distinct_cells_keep_distinct_points_far_from_the_origin) {
+TEST(Exporters, distinct_voxels_keep_distinct_points_far_from_the_origin) {
   Random random;
   const TempFolder folder;
   const BlockIndex far{2'250'000, -13'500'000 / 8, 625};  // 900 km east, 675 km south
@@ -165,18 +165,19 @@ TEST(Exporters, distinct_cells_keep_distinct_points_far_from_the_origin) {
   ASSERT_TRUE((*store)->close());
   std::vector<VoxelIndex> occupied;
   for (int offset = 0; offset < kBlockVoxels; ++offset) {
-    if (kThresholds.classify(block.cells[static_cast<std::size_t>(offset)]) == Occupancy::kOccupied)
+    if (kThresholds.classify(block.voxels[static_cast<std::size_t>(offset)]) ==
+        Occupancy::kOccupied)
       occupied.push_back(voxel_at(far, offset));
   }
   std::ranges::sort(occupied);
   const auto map = load_map(folder / "far.swl");
   ASSERT_TRUE(export_map("ply", *map, folder / "far.ply"));
-  EXPECT_EQ(cells_of_binary<double>(folder / "far.ply", "end_header\n", 28, {0, 0, 0}), occupied);
+  EXPECT_EQ(voxels_of_binary<double>(folder / "far.ply", "end_header\n", 28, {0, 0, 0}), occupied);
 
   ASSERT_TRUE(export_map("pcd", *map, folder / "far.pcd"));
   const auto origin = pcd_origin(*map);
   ASSERT_TRUE(origin);
-  EXPECT_EQ(cells_of_binary<float>(folder / "far.pcd", "DATA binary\n", 16, *origin), occupied);
+  EXPECT_EQ(voxels_of_binary<float>(folder / "far.pcd", "DATA binary\n", 16, *origin), occupied);
   EXPECT_EQ(lines_of(folder / "far.pcd")[1], "# add (" + std::to_string(std::llround(origin->x())) +
                                                  ", " + std::to_string(std::llround(origin->y())) +
                                                  ", " + std::to_string(std::llround(origin->z())) +
@@ -185,52 +186,52 @@ TEST(Exporters, distinct_cells_keep_distinct_points_far_from_the_origin) {
 
 #if SWIFTLET_HAS_OCTOMAP
 
-/// Every cell of a tree, whatever was pruned.
+/// Every voxel of a tree, whatever was pruned.
 template <class Tree>
-Cells cells_of(const Tree& tree) {
-  Cells cells;
+Voxels voxels_of(const Tree& tree) {
+  Voxels voxels;
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
     const int edge = 1 << (16 - leaf.getDepth());
     const octomap::OcTreeKey first = leaf.getIndexKey();  // lowest key of the leaf's cube
     for_each_block({{first[0] - 32768, first[1] - 32768, first[2] - 32768}, {edge, edge, edge}},
                    [&](const BlockIndex& i) {
-                     cells[{i.x, i.y, i.z}] =
+                     voxels[{i.x, i.y, i.z}] =
                          tree.isNodeOccupied(*leaf) ? Occupancy::kOccupied : Occupancy::kFree;
                    });
   }
-  return cells;
+  return voxels;
 }
 
-TEST(Exporters, liboctomap_reads_exactly_our_free_and_occupied_cells_from_bt) {
+TEST(Exporters, liboctomap_reads_exactly_our_free_and_occupied_voxels_from_bt) {
   const ExportedMap map;
   octomap::OcTree tree(1.0);
   ASSERT_TRUE(tree.readBinary(map.write("bt").string()));
   EXPECT_EQ(tree.getResolution(), 0.05);
-  EXPECT_EQ(cells_of(tree), map.cells);
+  EXPECT_EQ(voxels_of(tree), map.voxels);
 }
 
-TEST(Exporters, liboctomap_reads_exactly_our_free_and_occupied_cells_from_ot) {
+TEST(Exporters, liboctomap_reads_exactly_our_free_and_occupied_voxels_from_ot) {
   const ExportedMap map;
   const std::unique_ptr<octomap::AbstractOcTree> any(
       octomap::AbstractOcTree::read(map.write("ot").string()));
   const auto* tree = dynamic_cast<octomap::OcTree*>(any.get());
   ASSERT_NE(tree, nullptr);
-  EXPECT_EQ(cells_of(*tree), map.cells);
+  EXPECT_EQ(voxels_of(*tree), map.voxels);
   // And the very log-odds: one step of the byte is 0.04.
-  const auto [v, state] = *map.cells.begin();
+  const auto [v, state] = *map.voxels.begin();
   const auto block = load_map(map.folder / "a.swl")->find(block_of(v));
   const auto* node =
       tree->search(centre_of(v, 0.05).x(), centre_of(v, 0.05).y(), centre_of(v, 0.05).z());
   ASSERT_NE(node, nullptr);
-  const int steps = block->value().cells[offset_in_block(v)] - kUnknownCell;
+  const int steps = block->value().voxels[offset_in_block(v)] - kUnknownVoxel;
   EXPECT_NEAR(node->getLogOdds(), 0.04 * steps, 1e-5);
 }
 
-TEST(Exporters, refuse_cells_beyond_octomaps_key_space) {
+TEST(Exporters, refuse_voxels_beyond_octomaps_key_space) {
   TempFolder folder;
   {
     auto store = BlockStore::create(folder / "a.swl", 0.05);
-    (*store)->evict({4095, 0, 0}, test::block_full_of(255), 1);  // cells up to 32767: the last
+    (*store)->evict({4095, 0, 0}, test::block_full_of(255), 1);  // voxels up to 32767: the last
   }
   EXPECT_TRUE(export_map("bt", *load_map(folder / "a.swl"), folder / "a.bt"));
   {
@@ -250,8 +251,8 @@ TEST(OctomapImport, reads_our_exports_as_liboctomap_does) {
   test::expect_same_leaves(map.folder / "a.bt", tree);
   const auto summary = read_octomap(map.write("ot"));
   ASSERT_TRUE(summary.has_value());
-  EXPECT_EQ(summary->occupied_cells, map.occupied);
-  EXPECT_EQ(summary->occupied_cells + summary->free_cells, map.cells.size());
+  EXPECT_EQ(summary->occupied_voxels, map.occupied);
+  EXPECT_EQ(summary->occupied_voxels + summary->free_voxels, map.voxels.size());
 }
 
 TEST(OctomapImport, every_truncated_file_is_an_error) {

@@ -37,7 +37,7 @@ TEST(SavedMap, loaded_again_answers_as_the_map_that_was_saved) {
     const auto file = load_map(folder / "a.swl");
     ASSERT_TRUE(file);
     EXPECT_EQ(file->thresholds(), model.scale.thresholds) << "without any config";
-    EXPECT_EQ(summarize(*file)->cells, summarize(map).cells);
+    EXPECT_EQ(summarize(*file)->voxels, summarize(map).voxels);
   });
 }
 

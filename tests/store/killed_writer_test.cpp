@@ -29,18 +29,18 @@ struct Flight {
   }
   static VoxelBlock state(const BlockIndex& index, std::uint64_t frame) {
     VoxelBlock block;
-    for (std::size_t i = 0; i < block.cells.size(); ++i) {
+    for (std::size_t i = 0; i < block.voxels.size(); ++i) {
       const auto bits = mix_bits(frame * 512 + i) ^ BlockHash {}(index);
-      block.cells[i] = static_cast<QuantizedLogOdds>(bits);
+      block.voxels[i] = static_cast<QuantizedLogOdds>(bits);
     }
-    // The frame itself, in the first cells.
+    // The frame itself, in the first voxels.
     for (std::size_t i = 0; i < 4; ++i)
-      block.cells[i] = static_cast<QuantizedLogOdds>(frame >> (8 * i));
+      block.voxels[i] = static_cast<QuantizedLogOdds>(frame >> (8 * i));
     return block;
   }
   static std::uint64_t frame_of(const VoxelBlock& block) {
     std::uint64_t frame = 0;
-    for (std::size_t i = 0; i < 4; ++i) frame |= std::uint64_t{block.cells[i]} << (8 * i);
+    for (std::size_t i = 0; i < 4; ++i) frame |= std::uint64_t{block.voxels[i]} << (8 * i);
     return frame;
   }
   /// The blocks that frame f changes.

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "store/store_support.hpp"
-#include "swiftlet/query/cell_counts.hpp"
+#include "swiftlet/query/voxel_counts.hpp"
 #include "swiftlet/store/map_loader.hpp"
 
 namespace swiftlet {
@@ -131,7 +131,7 @@ TEST(MapFile, that_an_earlier_program_wrote_is_read) {
   ASSERT_TRUE(whole) << whole.error().text();
   EXPECT_EQ(whole->voxel_m(), 0.1);
   EXPECT_EQ(whole->block_count(), 40U);
-  EXPECT_EQ(count_cells(*whole), (CellCounts{3584, 16896, 0}));
+  EXPECT_EQ(count_voxels(*whole), (VoxelCounts{3584, 16896, 0}));
   EXPECT_EQ(whole->header().start_m, Eigen::Vector3d(0, 1, 2));
 }
 

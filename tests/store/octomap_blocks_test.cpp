@@ -33,12 +33,12 @@ TEST(OctomapBlocks, lays_out_leaves_of_every_size_that_fits) {
       test::write_file(folder / "a.bt", one_leaf(depth, is_occupied));
       const auto out = read_octomap_blocks(folder / "a.bt", kLaidOut);
       ASSERT_TRUE(out) << out.error().text();
-      std::uint64_t cells = 0;
+      std::uint64_t voxels = 0;
       for_each_known_voxel(out->blocks, [&](const VoxelIndex&, QuantizedLogOdds, Occupancy state) {
         EXPECT_EQ(state == Occupancy::kOccupied, is_occupied);
-        ++cells;
+        ++voxels;
       });
-      EXPECT_EQ(cells, std::uint64_t{1} << (3 * (16 - depth))) << depth;
+      EXPECT_EQ(voxels, std::uint64_t{1} << (3 * (16 - depth))) << depth;
       EXPECT_NE(out->blocks.find(block_of({-32768, -32768, -32768})), nullptr);
     }
   }

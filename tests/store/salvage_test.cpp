@@ -123,7 +123,7 @@ TEST(Salvage, tells_the_truth_wherever_a_byte_or_a_sector_is_damaged) {
           std::to_string(size) + " bytes at " + std::to_string(at) + "; " + random.repeat()));
     }
   }
-  EXPECT_LT(given_up, rounds / 10) << "only where the cell size stands";
+  EXPECT_LT(given_up, rounds / 10) << "only where the voxel size stands";
 }
 
 TEST(Salvage, finds_the_blocks_of_a_file_without_its_header_and_of_one_that_is_cut_off) {

@@ -43,17 +43,17 @@ inline Blocks blocks_in(const MapSnapshot& map) {
   return blocks;
 }
 
-/// A block whose cells all differ from unknown now and then; compresses as badly as any.
+/// A block whose voxels all differ from unknown now and then; compresses as badly as any.
 inline VoxelBlock random_block(Random& random) {
   VoxelBlock block;
-  for (QuantizedLogOdds& cell : block.cells)
-    cell = static_cast<QuantizedLogOdds>(random.integer(0, 255));
+  for (QuantizedLogOdds& voxel : block.voxels)
+    voxel = static_cast<QuantizedLogOdds>(random.integer(0, 255));
   return block;
 }
 
 inline VoxelBlock block_full_of(int value) {
   VoxelBlock block;
-  block.cells.fill(static_cast<QuantizedLogOdds>(value));
+  block.voxels.fill(static_cast<QuantizedLogOdds>(value));
   return block;
 }
 

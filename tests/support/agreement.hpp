@@ -19,36 +19,36 @@
 
 namespace swiftlet::test {
 
-/// How two maps of the same frames compare, over the cells that enough rays crossed.
+/// How two maps of the same frames compare, over the voxels that enough rays crossed.
 struct Agreement {
-  std::size_t cells = 0;
+  std::size_t voxels = 0;
   std::size_t same_class = 0;
-  std::size_t clear_cells = 0;  ///< of these, not within one step of a threshold in either map
+  std::size_t clear_voxels = 0;  ///< of these, not within one step of a threshold in either map
   std::size_t clear_same_class = 0;
   double sum_difference = 0.0;  ///< in steps
 
-  [[nodiscard]] double class_share() const { return share(same_class, cells); }
-  [[nodiscard]] double clear_class_share() const { return share(clear_same_class, clear_cells); }
+  [[nodiscard]] double class_share() const { return share(same_class, voxels); }
+  [[nodiscard]] double clear_class_share() const { return share(clear_same_class, clear_voxels); }
   [[nodiscard]] double mean_difference() const {
-    return sum_difference / static_cast<double>(cells);
+    return sum_difference / static_cast<double>(voxels);
   }
   [[nodiscard]] std::string text() const {
-    return fmt::format("{} cells: same class {:.3f} %, {:.3f} % off the thresholds, |diff| {:.3f}",
-                       cells, 100 * class_share(), 100 * clear_class_share(), mean_difference());
+    return fmt::format("{} voxels: same class {:.3f} %, {:.3f} % off the thresholds, |diff| {:.3f}",
+                       voxels, 100 * class_share(), 100 * clear_class_share(), mean_difference());
   }
 
   void add(QuantizedLogOdds a, QuantizedLogOdds b) {
     constexpr OccupancyThresholds thresholds;
-    const auto is_near = [&](QuantizedLogOdds cell) {
-      return std::abs(2 * (cell - thresholds.free_below) + 1) <= 3 ||
-             std::abs(2 * (cell - thresholds.occupied_from) + 1) <= 3;
+    const auto is_near = [&](QuantizedLogOdds voxel) {
+      return std::abs(2 * (voxel - thresholds.free_below) + 1) <= 3 ||
+             std::abs(2 * (voxel - thresholds.occupied_from) + 1) <= 3;
     };
     const bool is_same = thresholds.classify(a) == thresholds.classify(b);
-    ++cells;
+    ++voxels;
     same_class += is_same ? 1 : 0;
     sum_difference += std::abs(a - b);
     if (is_near(a) || is_near(b)) return;
-    ++clear_cells;
+    ++clear_voxels;
     clear_same_class += is_same ? 1 : 0;
   }
 
@@ -87,7 +87,7 @@ class AgreementCheck {
     count_rays(view, sensor);
   }
 
-  /// Over the cells that rays worth at least half an observation crossed, in all frames together.
+  /// Over the voxels that rays worth at least half an observation crossed, in all frames together.
   [[nodiscard]] Agreement result() const {
     Agreement agreement;
     for (std::int32_t z = box_.first.z; z <= box_.last.z; ++z) {
@@ -126,18 +126,18 @@ class AgreementCheck {
     const double voxel = reference_map_.voxel_m();
     const Eigen::Matrix3d R = view.T_world_camera.rotation().toRotationMatrix();
     const Eigen::Vector3d camera_m = view.T_world_camera.translation();
-    cells_.resize(max_cells(box_));
+    voxels_.resize(max_voxels(box_));
     for (int v = 0; v < view.depth.raw.height(); ++v) {
       for (int u = 0; u < view.depth.raw.width(); ++u) {
         if (view.depth.raw.at(u, v) == 0) continue;
         const double z_m = double{view.depth.unit_m} * view.depth.raw.at(u, v);
         const double z_end_m = z_m + 3.0 * sensor.noise().sigma_m(z_m);
         const Eigen::Vector3d end_m = camera_m + R * view.intrinsics.back_project(u, v, z_end_m);
-        const std::size_t n = trace_({camera_m / voxel, end_m / voxel}, box_, cells_);
+        const std::size_t n = trace_({camera_m / voxel, end_m / voxel}, box_, voxels_);
         for (std::size_t i = 0; i < n; ++i) {
-          const double z_cell_m = R.col(2).dot(centre_of(cells_[i], voxel) - camera_m);
-          if (z_cell_m > 0.0)
-            observations_[place(cells_[i])] += static_cast<float>(sensor.weight(z_cell_m));
+          const double z_voxel_m = R.col(2).dot(centre_of(voxels_[i], voxel) - camera_m);
+          if (z_voxel_m > 0.0)
+            observations_[place(voxels_[i])] += static_cast<float>(sensor.weight(z_voxel_m));
         }
       }
     }
@@ -152,7 +152,7 @@ class AgreementCheck {
   TraceRay trace_;
   VoxelBox box_;
   std::vector<float> observations_;  // of all frames: each ray counts DW
-  std::vector<VoxelIndex> cells_;
+  std::vector<VoxelIndex> voxels_;
   std::uint64_t frames_ = 0;
 };
 
@@ -160,7 +160,7 @@ class AgreementCheck {
 /// class, 99.9 % off the thresholds and 2 steps.
 inline void expect_agreement(const Agreement& agreement) {
   SCOPED_TRACE(agreement.text());
-  EXPECT_GT(agreement.cells, 1000U);
+  EXPECT_GT(agreement.voxels, 1000U);
   EXPECT_GE(agreement.class_share(), 0.97);
   EXPECT_GE(agreement.clear_class_share(), 0.98);
   EXPECT_LE(agreement.mean_difference(), 3.0);

@@ -31,13 +31,13 @@ class BruteDistance {
     nx_ = box.size.x * kBlockEdge + 2 * edge_;
     ny_ = box.size.y * kBlockEdge + 2 * edge_;
     const int nz = box.size.z * kBlockEdge + 2 * edge_;
-    const Occupancy unknown = thresholds.classify(kUnknownCell);
+    const Occupancy unknown = thresholds.classify(kUnknownVoxel);
     classes_.assign(static_cast<std::size_t>(nx_) * ny_ * nz, unknown);
     for_each_block(box, [&](const BlockIndex& b) {
       const VoxelBlock* block = map.find(b);
       if (block == nullptr) return;
       for (int i = 0; i < kBlockVoxels; ++i)
-        classes_[place(voxel_at(b, i))] = thresholds.classify(block->cells[i]);
+        classes_[place(voxel_at(b, i))] = thresholds.classify(block->voxels[i]);
     });
     for (Step& s : steps_) s.offset = (static_cast<std::ptrdiff_t>(s.z) * ny_ + s.y) * nx_ + s.x;
   }

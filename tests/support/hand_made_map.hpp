@@ -25,12 +25,12 @@ class HandMadeMap {
   [[nodiscard]] RollingMap& map() { return map_; }
   void set(const VoxelIndex& v, QuantizedLogOdds value) {
     if (!map_.window().contains(block_of(v))) return;
-    map_.writable(block_of(v)).cells[offset_in_block(v)] = value;
+    map_.writable(block_of(v)).voxels[offset_in_block(v)] = value;
   }
   void set_at(const Eigen::Vector3d& p_world, QuantizedLogOdds value) {
     set(voxel_containing(p_world, map_.voxel_m()), value);
   }
-  /// All cells that a box touches.
+  /// All voxels that a box touches.
   void fill(const Eigen::Vector3d& low, const Eigen::Vector3d& high, QuantizedLogOdds value) {
     const VoxelIndex a = voxel_containing(low, map_.voxel_m());
     const VoxelIndex b = voxel_containing(high, map_.voxel_m());
@@ -41,7 +41,8 @@ class HandMadeMap {
     }
   }
   void fill_window(QuantizedLogOdds value) {
-    for_each_block(map_.window(), [&](const BlockIndex& b) { map_.writable(b).cells.fill(value); });
+    for_each_block(map_.window(),
+                   [&](const BlockIndex& b) { map_.writable(b).voxels.fill(value); });
   }
   [[nodiscard]] MapSnapshot snapshot() {
     auto snapshot = map_.snapshot({++frames_});

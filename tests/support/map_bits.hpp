@@ -17,13 +17,13 @@ namespace swiftlet::test {
 /// What tells two maps apart: a hash of every known block at its place.
 struct MapBits {
   std::uint64_t hash = 14695981039346656037U;  // FNV-1a
-  std::size_t known_cells = 0;
+  std::size_t known_voxels = 0;
   std::uint64_t frames = 0;
 
   void add(std::uint64_t byte) { hash = (hash ^ (byte & 0xFFU)) * 1099511628211U; }
   friend bool operator==(const MapBits&, const MapBits&) = default;
   friend std::ostream& operator<<(std::ostream& out, const MapBits& bits) {
-    return out << std::hex << bits.hash << std::dec << " (" << bits.known_cells << " cells, "
+    return out << std::hex << bits.hash << std::dec << " (" << bits.known_voxels << " voxels, "
                << bits.frames << " frames)";
   }
 };
@@ -39,9 +39,9 @@ struct MapBits {
       for (int shift = 0; shift < 32; shift += 8)
         bits.add(static_cast<std::uint32_t>(i) >> static_cast<unsigned>(shift));
     }
-    for (const QuantizedLogOdds cell : block.cells) {
-      bits.add(cell);
-      bits.known_cells += cell == kUnknownCell ? 0 : 1;
+    for (const QuantizedLogOdds voxel : block.voxels) {
+      bits.add(voxel);
+      bits.known_voxels += voxel == kUnknownVoxel ? 0 : 1;
     }
   });
   return bits;

@@ -20,49 +20,49 @@
 
 namespace swiftlet::test {
 
-/// What a map is to say, in the plainest form: every cell that is not unknown by its byte.
+/// What a map is to say, in the plainest form: every voxel that is not unknown by its byte.
 struct MapModel {
   double voxel_m = 0.1;
   LogOddsScale scale{{90, 200}, 0.05};  // not the defaults
-  std::unordered_map<VoxelIndex, QuantizedLogOdds, VoxelHash> cells{};
+  std::unordered_map<VoxelIndex, QuantizedLogOdds, VoxelHash> voxels{};
 
   [[nodiscard]] QuantizedLogOdds at(const VoxelIndex& v) const {
-    const auto found = cells.find(v);
-    return found == cells.end() ? kUnknownCell : found->second;
+    const auto found = voxels.find(v);
+    return found == voxels.end() ? kUnknownVoxel : found->second;
   }
   [[nodiscard]] Occupancy state(const VoxelIndex& v) const { return scale.classify(at(v)); }
 };
 
-/// Cells of all states, in patches, within a box.
+/// Voxels of all states, in patches, within a box.
 inline MapModel random_model(Random& random, const VoxelBox& box) {
   MapModel model;
   const auto within = [&](std::int32_t a, std::int32_t b) { return random.integer(a, b); };
   for (int patch = 0; patch < 40; ++patch) {
     const VoxelIndex at{within(box.first.x, box.last.x), within(box.first.y, box.last.y),
                         within(box.first.z, box.last.z)};
-    const auto cell = static_cast<QuantizedLogOdds>(random.chance(0.8) ? random.integer(0, 100)
-                                                                       : random.integer(101, 255));
+    const auto voxel = static_cast<QuantizedLogOdds>(random.chance(0.8) ? random.integer(0, 100)
+                                                                        : random.integer(101, 255));
     const int reach = random.integer(0, 6);
     for (VoxelIndex v{at.x - reach, 0, 0}; v.x <= at.x + reach; ++v.x) {
       for (v.y = at.y - reach; v.y <= at.y + reach; ++v.y) {
         for (v.z = at.z - reach; v.z <= at.z + reach; ++v.z) {
-          if (box.contains(v)) model.cells[v] = cell;
+          if (box.contains(v)) model.voxels[v] = voxel;
         }
       }
     }
   }
-  std::erase_if(model.cells, [](const auto& cell) { return cell.second == kUnknownCell; });
+  std::erase_if(model.voxels, [](const auto& voxel) { return voxel.second == kUnknownVoxel; });
   return model;
 }
 
 /// The model in memory.
 inline BlockMap block_map_of(const MapModel& model) {
   BlockMap map({model.voxel_m, model.scale});
-  for (const auto& [voxel, cell] : model.cells) map.set(voxel, cell);
+  for (const auto& [voxel, value] : model.voxels) map.set(voxel, value);
   return map;
 }
 
-/// A ray followed through the model one cell after the other, without any box.
+/// A ray followed through the model one voxel after the other, without any box.
 inline RayHit cast_in_model(const MapModel& model, const Eigen::Vector3d& from,
                             const Eigen::Vector3d& to, UnknownSpace unknown) {
   constexpr std::int32_t kFar = 100'000;
@@ -70,12 +70,12 @@ inline RayHit cast_in_model(const MapModel& model, const Eigen::Vector3d& from,
   const double length_m = (to - from).norm();
   GridWalk walk(ray, {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}, {});
   do {
-    const Occupancy state = model.state(walk.cell());
+    const Occupancy state = model.state(walk.voxel());
     if (state == Occupancy::kOccupied ||
         (state == Occupancy::kUnknown && unknown == UnknownSpace::kStops))
-      return {state, walk.entered_at() * length_m, walk.cell()};
+      return {state, walk.entered_at() * length_m, walk.voxel()};
   } while (walk.advance());
-  return {Occupancy::kFree, length_m, walk.cell()};
+  return {Occupancy::kFree, length_m, walk.voxel()};
 }
 
 template <OccupancyMap Map>
@@ -107,7 +107,7 @@ void expect_points_and_rays_of(const MapModel& model, const Map& map, const Voxe
 
 template <OccupancyMap Map>
 void expect_box_of(const MapModel& model, const Map& map, const VoxelBox& box, Random& random) {
-  CellCounts counts;
+  VoxelCounts counts;
   std::vector<QuantizedLogOdds> bytes;
   for (VoxelIndex v = box.first; v.z <= box.last.z; ++v.z) {
     for (v.y = box.first.y; v.y <= box.last.y; ++v.y) {
@@ -118,7 +118,7 @@ void expect_box_of(const MapModel& model, const Map& map, const VoxelBox& box, R
     }
   }
   ASSERT_EQ(bytes.size(), box.voxel_count());
-  EXPECT_EQ(count_cells(map, box), counts) << random.repeat();
+  EXPECT_EQ(count_voxels(map, box), counts) << random.repeat();
   constexpr QuantizedLogOdds kUntouched = 77;
   std::vector<QuantizedLogOdds> copied(bytes.size() + 1, kUntouched);
   copy_box(map, box, std::span<QuantizedLogOdds>(copied));
@@ -139,23 +139,23 @@ template <OccupancyMap Map>
 void expect_iteration_of(const MapModel& model, const Map& map) {
   MapSummary expected;
   std::set<VoxelIndex> known;
-  for (const auto& [v, cell] : model.cells) {
+  for (const auto& [v, voxel] : model.voxels) {
     if (model.state(v) == Occupancy::kUnknown) continue;
     known.insert(v);
     if (!expected.bounds) expected.bounds = VoxelBox{v, v};
     expected.bounds->include(v);
-    expected.cells.add(model.state(v));
+    expected.voxels.add(model.state(v));
   }
-  for_each_known_voxel(map, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
+  for_each_known_voxel(map, [&](const VoxelIndex& v, QuantizedLogOdds voxel, Occupancy state) {
     EXPECT_EQ(known.erase(v), 1U) << "each once, and no other";
-    EXPECT_EQ(cell, model.at(v));
+    EXPECT_EQ(voxel, model.at(v));
     EXPECT_EQ(state, model.state(v));
   });
   EXPECT_TRUE(known.empty());
   const MapSummary summary = summarize(map);
-  EXPECT_EQ(summary.cells.free, expected.cells.free);
-  EXPECT_EQ(summary.cells.occupied, expected.cells.occupied);
-  EXPECT_EQ(count_cells(map), summary.cells);
+  EXPECT_EQ(summary.voxels.free, expected.voxels.free);
+  EXPECT_EQ(summary.voxels.occupied, expected.voxels.occupied);
+  EXPECT_EQ(count_voxels(map), summary.voxels);
   ASSERT_EQ(summary.bounds.has_value(), expected.bounds.has_value());
   if (summary.bounds) {
     EXPECT_EQ(summary.bounds->first, expected.bounds->first);

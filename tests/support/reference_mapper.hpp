@@ -12,7 +12,7 @@
 namespace swiftlet::test {
 
 /// The method once more, straight from its equations (method 2 to 6), in double precision and with
-/// no code of the product: every cell of the neighbourhood is clipped against every ray. Slow; for
+/// no code of the product: every voxel of the neighbourhood is clipped against every ray. Slow; for
 /// small images and maps.
 struct ReferenceMapper {
   // Camera.
@@ -24,13 +24,13 @@ struct ReferenceMapper {
   int n = 1;
   double min_range = 0.2, max_range = 10.0;
 
-  using Cell = std::array<int, 3>;
+  using Voxel = std::array<int, 3>;
 
-  /// Sum of DW * L_ism per cell over one frame, in steps of a byte. depth: row-major metres, 0 = no
-  /// reading.
-  [[nodiscard]] std::map<Cell, double> frame_sums(const std::vector<double>& depth, const Cell& low,
-                                                  const Cell& high) const {
-    std::map<Cell, double> sums;
+  /// Sum of DW * L_ism per voxel over one frame, in steps of a byte. depth: row-major metres, 0 =
+  /// no reading.
+  [[nodiscard]] std::map<Voxel, double> frame_sums(const std::vector<double>& depth,
+                                                   const Voxel& low, const Voxel& high) const {
+    std::map<Voxel, double> sums;
     for (int bv = 0; bv < height; bv += n) {
       for (int bu = 0; bu < width; bu += n) {
         double z_t = 0.0;
@@ -49,8 +49,8 @@ struct ReferenceMapper {
   }
 
  private:
-  void add_ray(std::map<Cell, double>& sums, int u, int v, double z_t, const Cell& low,
-               const Cell& high) const {
+  void add_ray(std::map<Voxel, double>& sums, int u, int v, double z_t, const Voxel& low,
+               const Voxel& high) const {
     const double sigma = z_t * z_t * s / (fx * B);
     const Eigen::Vector4d far_camera =
         (z_t + 3 * sigma) * Eigen::Vector4d((u - cx) / fx, (v - cy) / fy, 1.0, 0.0) +
@@ -64,16 +64,16 @@ struct ReferenceMapper {
           const Eigen::Vector4d centre((x + 0.5) * c, (y + 0.5) * c, (z + 0.5) * c, 1.0);
           const double to_line = (b - a).cross(centre.head<3>() - a).norm() / (b - a).norm();
           if (to_line > c || !crosses(a, b, Eigen::Vector3d(x, y, z) * c)) continue;
-          const double z_cell = (T_camera_world * centre).z();
-          if (z_cell <= 0.0) continue;
+          const double z_voxel = (T_camera_world * centre).z();
+          if (z_voxel <= 0.0) continue;
           sums[{x, y, z}] +=
-              z_cell * z_cell * n * n / (fx * fy * c * c) * log_odds(z_cell, z_t, sigma) / step;
+              z_voxel * z_voxel * n * n / (fx * fy * c * c) * log_odds(z_voxel, z_t, sigma) / step;
         }
       }
     }
   }
 
-  /// The segment a-b has length inside the cell whose low corner is given.
+  /// The segment a-b has length inside the voxel whose low corner is given.
   [[nodiscard]] bool crosses(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                              const Eigen::Vector3d& corner) const {
     double t0 = 0.0, t1 = 1.0;
@@ -90,9 +90,9 @@ struct ReferenceMapper {
     return t1 - t0 > 1e-9;
   }
 
-  /// Method 4 with its errata; the cell is the slice of half a cell on both sides of its centre.
-  [[nodiscard]] double log_odds(double z_cell, double z_t, double sigma) const {
-    double d = z_cell - z_t;
+  /// Method 4 with its errata; the voxel is the slice of half a voxel on both sides of its centre.
+  [[nodiscard]] double log_odds(double z_voxel, double z_t, double sigma) const {
+    double d = z_voxel - z_t;
     if (std::abs(d) <= c / 2)
       d = 0.0;
     else

@@ -64,7 +64,7 @@ try {
   await page.addInitScript(countBuffers);
   const devtools = await page.context().newCDPSession(page);
   await page.goto(flight.url);
-  console.log('| minute | frames seen | blocks | occupied cells | objects [MB] | arrays [MB] | GPU buffers [MB] | nodes of the page | events | path points |');
+  console.log('| minute | frames seen | blocks | occupied voxels | objects [MB] | arrays [MB] | GPU buffers [MB] | nodes of the page | events | path points |');
   console.log('|---|---|---|---|---|---|---|---|---|---|');
   for (let second = kRow_s; second <= 60 * Number(minutes); second += kRow_s) {
     await page.waitForTimeout(1000 * kRow_s);

@@ -2,7 +2,7 @@
 // Copyright the Swiftlet authors
 //
 // node scripts/measure.mjs URL
-// What the page costs, in a browser without a screen: time until its map is the mapper's, cell for cell, draw calls,
+// What the page costs, in a browser without a screen: time until its map is the mapper's, voxel for voxel, draw calls,
 // frames a second, and the memory of the tab; long_flight.mjs tells how that grows. The figures in the docs:
 //     swiftlet map 'sim:apartment?rate=1' --set map.voxel_m=0.044 --set depth.max_range_m=6 -o big.swl
 //     swiftlet view big.swl
@@ -19,7 +19,7 @@ const known = () =>
   page.evaluate(() => {
     const {world, viewer} = window.swiftlet;
     const {occupied, blocks} = world.digest;
-    return {cells: occupied, blocks, drawn: viewer.occupied.count, calls: viewer.renderer.info.render.calls};
+    return {voxels: occupied, blocks, drawn: viewer.occupied.count, calls: viewer.renderer.info.render.calls};
   });
 async function memory_mb() {
   const {objects, arrays} = await heapOf(devtools);

@@ -129,7 +129,7 @@ canvas.addEventListener('click', (event) => {
   const isDrag = pressed && Math.hypot(event.offsetX - pressed[0], event.offsetY - pressed[1]) > 5;
   if (!isDrag) inspector.point(viewer.pick(event.offsetX, event.offsetY), true);
 });
-slice.onPoint = (cell, isKept) => inspector.point(cell, isKept);
+slice.onPoint = (voxel, isKept) => inspector.point(voxel, isKept);
 
 // ---- the page, drawn again and again
 
@@ -158,8 +158,8 @@ function drawAll(now_ms: number): void {
     viewer.sliceZ_m = slice.z_m;
     viewer.refresh();
   }
-  if (inspector.cell !== viewer.picked) {
-    viewer.picked = inspector.cell;
+  if (inspector.voxel !== viewer.picked) {
+    viewer.picked = inspector.voxel;
     viewer.refresh();
   }
   viewer.draw(now_ms);

@@ -14,7 +14,7 @@
   X(view, "show a map in the browser")                        \
   X(render, "draw a map as a PNG picture")                    \
   X(export, "write a map in another program's format")        \
-  X(compare, "count the cells in which two maps differ")      \
+  X(compare, "count the voxels in which two maps differ")     \
   X(bench, "measure how fast maps are built, beside OctoMap") \
   X(score, "measure how right maps are, beside OctoMap")      \
   X(experiment, "repeat the experiments of the thesis")       \

@@ -105,7 +105,7 @@ int run_program(int argc, char** argv) {
     return report({{ErrorCode::kOutOfMemory,
                     {},
                     "the memory does not suffice",
-                    "choose larger cells or a smaller window"}});
+                    "choose larger voxels or a smaller window"}});
   }
 }
 

@@ -31,12 +31,12 @@ Clip clip_to_box(const GridRay& ray, const VoxelBox& box) {
 
 GridWalk::Axis GridWalk::make_axis(double from, double to, const Clip& clip, std::int32_t low,
                                    std::int32_t high) {
-  const auto cell_at = [&](double t) {
+  const auto voxel_at = [&](double t) {
     const double p = t >= 1.0 ? to : from + t * (to - from);  // the very end, not its rounding
     return std::clamp(static_cast<std::int32_t>(std::floor(p)), low, high);
   };
-  const std::int32_t first = cell_at(clip.begin);
-  const std::int32_t last = cell_at(clip.end);
+  const std::int32_t first = voxel_at(clip.begin);
+  const std::int32_t last = voxel_at(clip.end);
   return {from, 1.0 / (to - from), first, last >= first ? 1 : -1, std::abs(last - first)};
 }
 

@@ -11,13 +11,13 @@
 
 namespace swiftlet {
 
-/// A cell of the world grid. Voxel i covers [i, i + 1) * voxel_m along each axis; its centre is (i
+/// A voxel of the world grid. Voxel i covers [i, i + 1) * voxel_m along each axis; its centre is (i
 /// + 0.5) * voxel_m. The index never changes: it names the same piece of space before and after the
 /// window moves.
 struct VoxelIndex {
-  std::int32_t x = 0;  ///< forward [cells]
-  std::int32_t y = 0;  ///< left [cells]
-  std::int32_t z = 0;  ///< up [cells]
+  std::int32_t x = 0;  ///< forward [voxels]
+  std::int32_t y = 0;  ///< left [voxels]
+  std::int32_t z = 0;  ///< up [voxels]
   friend constexpr auto operator<=>(const VoxelIndex&, const VoxelIndex&) = default;
 };
 

@@ -42,16 +42,16 @@ EvidenceSums::BlockSums& EvidenceSums::find_or_touch(const BlockIndex& block) {
 }
 
 std::size_t EvidenceSums::apply(std::uint64_t frame_number, RollingMap& map) {
-  std::size_t cells = 0;
+  std::size_t voxels = 0;
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     BlockSums& sums = sums_[i];
     for (std::size_t k = 0; k < kBlockVoxels; ++k)
       sums.steps[k] = (sums.steps[k] & ~kNotFree) | (sums.ends[k] > 0 ? kNotFree : 0);
-    cells += add_evidence(sums.steps, rounding_seed(touched_[i], frame_number),
-                          map.writable(touched_[i]));
+    voxels += add_evidence(sums.steps, rounding_seed(touched_[i], frame_number),
+                           map.writable(touched_[i]));
     sums = {};
   }
-  return cells;
+  return voxels;
 }
 
 std::size_t EvidenceSums::memory_bytes() const {

@@ -14,11 +14,11 @@
 
 namespace swiftlet {
 
-/// One frame's evidence, summed per cell before it meets the map (method 6).
+/// One frame's evidence, summed per voxel before it meets the map (method 6).
 ///
 /// A single ray gives far less than one step of a byte, so evidence is gathered first, in fixed
 /// point: integers add up to the same sum in any order. Only blocks that rays touched have sums.
-/// Sums are steps * 2^20 in 32 bits: a frame gives a cell at most sqrt(3) whole observations (the
+/// Sums are steps * 2^20 in 32 bits: a frame gives a voxel at most sqrt(3) whole observations (the
 /// projected area of a cube) of at most 127 steps, a ninth of the range, or by
 /// PrecisionWeightedModel one of at most 500 steps, a quarter; and one ray at 1 m gives some 190
 /// units of the last place.
@@ -39,7 +39,7 @@ class EvidenceSums {
   void add_log_odds(const VoxelIndex& voxel, double log_odds) {
     add(voxel, static_cast<FixedSteps>(std::lrint(log_odds * fixed_per_log_odds_)));
   }
-  /// Adds to what marks a cell as not free (PrecisionWeightedModel::Evidence::ends), in whole
+  /// Adds to what marks a voxel as not free (PrecisionWeightedModel::Evidence::ends), in whole
   /// observations: the sign of the sum counts. REQUIRES: |ends| < 100 in one frame.
   void add_ends(const VoxelIndex& voxel, double ends) {
     constexpr double kEndUnit = 1 << 20;
@@ -47,7 +47,7 @@ class EvidenceSums {
         static_cast<std::int32_t>(std::lrint(ends * kEndUnit));
   }
 
-  /// Adds every sum to its cell once (add_evidence()). Returns the number of cells with evidence.
+  /// Adds every sum to its voxel once (add_evidence()). Returns the number of voxels with evidence.
   std::size_t apply(std::uint64_t frame_number, RollingMap& map);
 
   [[nodiscard]] std::size_t touched_blocks() const { return touched_.size(); }
@@ -71,7 +71,7 @@ class EvidenceSums {
   std::vector<std::uint32_t> slot_of_;  // per block of the window: index into touched_ and sums_
   std::vector<BlockIndex> touched_;
   std::vector<BlockSums> sums_;  // all zero between frames
-  BlockIndex last_block_{};      // the block of the last add(): rays stay in one for several cells
+  BlockIndex last_block_{};      // the block of the last add(): rays stay in one for several voxels
   std::uint32_t last_slot_ = 0;
 };
 

@@ -21,7 +21,7 @@ struct IntegrateOptions {
   std::string integrator = "projective";
   std::string model = "precision_weighted";  ///< one of measurement_models()
   std::string ray_method = "voxel_traversal";
-  double logodds_per_step = 0.04;  ///< one step of a cell's byte, so +-127 steps are +-5.08
+  double logodds_per_step = 0.04;  ///< one step of a voxel's byte, so +-127 steps are +-5.08
   int threads = 1;                 ///< of the projective integrator; same map bits for any number
   double decay_s = 0.0;            ///< see OccupancyDecay; 0: never
   double max_frame_ms = 0.0;       ///< far blocks are left out once this is over; 0: never
@@ -30,7 +30,7 @@ struct IntegrateOptions {
 /// What one frame did to the map.
 struct IntegrationTally {
   std::size_t readings = 0;     ///< valid pixels that were fused
-  std::size_t cells = 0;        ///< cells that received evidence; surely free ones may be left out
+  std::size_t voxels = 0;       ///< voxels that received evidence; surely free ones may be left out
   std::size_t blocks = 0;       ///< blocks that hold them
   std::size_t blocks_left = 0;  ///< in view, but left out of this frame by max_frame_ms
 };

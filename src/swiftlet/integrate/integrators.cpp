@@ -8,7 +8,7 @@
 // An integrator is one file, which ends in make_<name>(), and one line here.
 #define SWIFTLET_INTEGRATORS(X)                                              \
   X(rays, "traces every reading through the grid with integrate.ray_method") \
-  X(projective, "looks up the readings in the image of every cell; the same sum, much faster")
+  X(projective, "looks up the readings in the image of every voxel; the same sum, much faster")
 
 namespace swiftlet {
 

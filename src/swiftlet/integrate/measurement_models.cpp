@@ -9,13 +9,13 @@
 
 // A measurement model is one file in models/, which ends in make_<name>(), and one line here: name,
 // depth step, summary.
-#define SWIFTLET_MEASUREMENT_MODELS(X)                                                 \
-  X(inverse_sensor_model, "",                                                          \
-    "the thesis's rule: occupied within the noise of a reading, free "                 \
-    "before it, unknown behind; the fastest")                                          \
-  X(thin_obstacle_preserving, "", "the same, and what is thinner than a cell is kept") \
-  X(precision_weighted, "smooth",                                                      \
-    "the most exact map: readings weighted by their precision, "                       \
+#define SWIFTLET_MEASUREMENT_MODELS(X)                                                  \
+  X(inverse_sensor_model, "",                                                           \
+    "the thesis's rule: occupied within the noise of a reading, free "                  \
+    "before it, unknown behind; the fastest")                                           \
+  X(thin_obstacle_preserving, "", "the same, and what is thinner than a voxel is kept") \
+  X(precision_weighted, "smooth",                                                       \
+    "the most exact map: readings weighted by their precision, "                        \
     "and thin obstacles kept")
 
 namespace swiftlet {

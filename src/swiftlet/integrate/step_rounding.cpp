@@ -19,7 +19,7 @@ FixedSteps dither(std::uint64_t word, std::size_t lane) {
 
 std::size_t add_evidence(std::span<const FixedSteps, kBlockVoxels> evidence, std::uint64_t seed,
                          VoxelBlock& block) {
-  std::size_t cells = 0;
+  std::size_t voxels = 0;
   for (std::size_t row = 0; row < kBlockVoxels; row += kRow) {
     const FixedSteps* e = &evidence[row];
     FixedSteps any = 0;
@@ -29,13 +29,13 @@ std::size_t add_evidence(std::span<const FixedSteps, kBlockVoxels> evidence, std
     for (std::size_t i = 0; i < kRow; ++i) {
       // Without evidence the draw alone never makes a step.
       const FixedSteps steps = (e[i] + dither(words[i / 4], i % 4)) >> kStepFractionBits;
-      const QuantizedLogOdds before = block.cells[row + i], after = add_steps(before, steps);
+      const QuantizedLogOdds before = block.voxels[row + i], after = add_steps(before, steps);
       const bool is_kept = after < before && (e[i] & kNotFree) != 0;
-      block.cells[row + i] = is_kept ? std::max(after, std::min(before, kUnknownCell)) : after;
-      cells += e[i] != 0 ? 1 : 0;
+      block.voxels[row + i] = is_kept ? std::max(after, std::min(before, kUnknownVoxel)) : after;
+      voxels += e[i] != 0 ? 1 : 0;
     }
   }
-  return cells;
+  return voxels;
 }
 
 }  // namespace swiftlet

@@ -12,13 +12,13 @@
 
 namespace swiftlet {
 
-/// Evidence of one frame for one cell, in steps of its byte * 2^20.
+/// Evidence of one frame for one voxel, in steps of its byte * 2^20.
 using FixedSteps = std::int32_t;
 inline constexpr int kStepFractionBits = 20;
 inline constexpr double kOneStep = 1 << kStepFractionBits;
-/// Evidence that saturates any cell.
+/// Evidence that saturates any voxel.
 inline constexpr FixedSteps kMostSteps = 255 << kStepFractionBits;
-/// The last bit of evidence says that the cell is not free: what speaks against matter in it takes
+/// The last bit of evidence says that the voxel is not free: what speaks against matter in it takes
 /// it to unknown at most, never on to free (PrecisionWeightedModel).
 inline constexpr FixedSteps kNotFree = 1;
 
@@ -28,10 +28,10 @@ inline constexpr FixedSteps kNotFree = 1;
   return mix_bits(BlockHash{}(block) ^ mix_bits(frame_number));
 }
 
-/// Adds the evidence of a frame to the cells of a block, once and saturating. The fraction of a
-/// step becomes a whole one with that probability, drawn from a hash of cell and frame number:
-/// repeatable, unbiased. Sixteen bits of hash a cell, four cells a word, so that a block costs 128
-/// words. Returns the number of cells with evidence.
+/// Adds the evidence of a frame to the voxels of a block, once and saturating. The fraction of a
+/// step becomes a whole one with that probability, drawn from a hash of voxel and frame number:
+/// repeatable, unbiased. Sixteen bits of hash a voxel, four voxels a word, so that a block costs
+/// 128 words. Returns the number of voxels with evidence.
 std::size_t add_evidence(std::span<const FixedSteps, kBlockVoxels> evidence, std::uint64_t seed,
                          VoxelBlock& block);
 

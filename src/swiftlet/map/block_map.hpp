@@ -24,9 +24,9 @@ class BlockMap : public VoxelLookup<BlockMap> {
 
   /// What the map says of itself.
   [[nodiscard]] const MapHeader& header() const { return header_; }
-  /// Edge of a cell [m]
+  /// Edge of a voxel [m]
   [[nodiscard]] double voxel_m() const { return header_.voxel_m; }
-  /// How its cells are read.
+  /// How its voxels are read.
   [[nodiscard]] const LogOddsScale& scale() const { return header_.scale; }
   /// Blocks that it holds.
   [[nodiscard]] std::size_t block_count() const { return blocks_.size(); }
@@ -46,13 +46,13 @@ class BlockMap : public VoxelLookup<BlockMap> {
 
   /// Changes what the map says of itself; the blocks stay.
   void set_header(const MapHeader& header) { header_ = header; }
-  /// The block for writing, made of unknown cells if there was none.
+  /// The block for writing, made of unknown voxels if there was none.
   [[nodiscard]] VoxelBlock& writable(const BlockIndex& index);
   /// Sets a whole block.
   void put(const BlockIndex& index, const VoxelBlock& block) { writable(index) = block; }
-  /// Sets one cell.
-  void set(const VoxelIndex& voxel, QuantizedLogOdds cell) {
-    writable(block_of(voxel)).cells[offset_in_block(voxel)] = cell;
+  /// Sets one voxel.
+  void set(const VoxelIndex& voxel, QuantizedLogOdds value) {
+    writable(block_of(voxel)).voxels[offset_in_block(voxel)] = value;
   }
   /// False if there was no such block.
   bool erase(const BlockIndex& index) { return blocks_.erase(index) > 0; }

@@ -10,14 +10,14 @@ namespace swiftlet {
 Expected<BlockPool> BlockPool::create(std::size_t capacity) {
   BlockPool pool;
   pool.capacity_ = capacity;
-  // Default-initialised on purpose: writing the cells here would commit every page.
+  // Default-initialised on purpose: writing the voxels here would commit every page.
   pool.blocks_.reset(new (std::nothrow) VoxelBlock[capacity]);
   pool.born_.reset(new (std::nothrow) std::uint64_t[capacity]);
   if (!pool.blocks_ || !pool.born_) {
     return fail(ErrorCode::kOutOfMemory, "map",
                 "cannot reserve " + std::to_string(capacity * sizeof(VoxelBlock) >> 20U) +
                     " MiB for the window",
-                "make the window smaller or the cells larger");
+                "make the window smaller or the voxels larger");
   }
   pool.free_.reserve(capacity);
   return pool;

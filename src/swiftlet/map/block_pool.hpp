@@ -22,7 +22,7 @@ class BlockPool {
   /// Errors: kOutOfMemory.
   [[nodiscard]] static Expected<BlockPool> create(std::size_t capacity);
 
-  /// A block with unspecified cells, marked as born in `epoch`; kNoBlock if all are taken.
+  /// A block with unspecified voxels, marked as born in `epoch`; kNoBlock if all are taken.
   [[nodiscard]] BlockId take(std::uint64_t epoch);
   void give_back(BlockId id) { free_.push_back(id); }
 

@@ -38,7 +38,7 @@ struct BlockWindow {
   friend constexpr bool operator==(const BlockWindow&, const BlockWindow&) = default;
 };
 
-/// All cells of a window.
+/// All voxels of a window.
 [[nodiscard]] constexpr VoxelBox voxel_box(const BlockWindow& window) {
   const auto last = [](std::int32_t first, std::int32_t size) {  // the end may lie behind int32
     return static_cast<std::int32_t>((std::int64_t{first} + size) * kBlockEdge - 1);
@@ -48,7 +48,7 @@ struct BlockWindow {
   return {first_voxel(b), {last(b.x, n.x), last(b.y, n.y), last(b.z, n.z)}};
 }
 
-/// The blocks that a box of cells touches. REQUIRES: first <= last along each axis.
+/// The blocks that a box of voxels touches. REQUIRES: first <= last along each axis.
 [[nodiscard]] constexpr BlockWindow blocks_around(const VoxelBox& box) {
   const BlockIndex first = block_of(box.first), last = block_of(box.last);
   return {first, {last.x - first.x + 1, last.y - first.y + 1, last.z - first.z + 1}};

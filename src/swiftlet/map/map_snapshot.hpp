@@ -19,18 +19,18 @@ namespace swiftlet {
 /// `map.occupancy(p_world)`, `map.probability(voxel)` (VoxelLookup) and every query of query/.
 ///
 /// Frame: world. Thread safety: any thread, any number of readers. Cost: copying takes a reference;
-/// reading a cell is two array look-ups. A held snapshot keeps its blocks from being reused, so let
-/// go of it after planning: while all of them (SnapshotStore::kSlots) are held, the mapper goes on
-/// but publishes nothing newer.
+/// reading a voxel is two array look-ups. A held snapshot keeps its blocks from being reused, so
+/// let go of it after planning: while all of them (SnapshotStore::kSlots) are held, the mapper goes
+/// on but publishes nothing newer.
 class MapSnapshot : public VoxelLookup<MapSnapshot> {
  public:
-  /// Edge of a cell [m]
+  /// Edge of a voxel [m]
   [[nodiscard]] double voxel_m() const { return slot().voxel_m; }
   /// The box of blocks that the map covered.
   [[nodiscard]] const BlockWindow& window() const { return slot().window; }
   /// The same: outside of it nothing is known.
   [[nodiscard]] const BlockWindow& extent() const { return slot().window; }
-  /// How its cells are read.
+  /// How its voxels are read.
   [[nodiscard]] const LogOddsScale& scale() const { return slot().scale; }
   /// Where belief becomes a claim.
   [[nodiscard]] const OccupancyThresholds& thresholds() const { return slot().scale.thresholds; }
@@ -44,8 +44,8 @@ class MapSnapshot : public VoxelLookup<MapSnapshot> {
     return slot().mark.T_world_camera;
   }
 
-  /// The block, or null where the window holds nothing but unknown cells. kUnknownCell outside the
-  /// window, too.
+  /// The block, or null where the window holds nothing but unknown voxels. kUnknownVoxel outside
+  /// the window, too.
   [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const;
 
   /// Tells whether a block has changed since an earlier look: the publication in which this version
@@ -56,8 +56,8 @@ class MapSnapshot : public VoxelLookup<MapSnapshot> {
   /// and of no other one, even after the map has gone.
   [[nodiscard]] std::weak_ptr<const void> map_identity() const { return store_; }
 
-  /// Calls visit(BlockIndex, const VoxelBlock&) for every block that holds more than unknown cells,
-  /// x fastest.
+  /// Calls visit(BlockIndex, const VoxelBlock&) for every block that holds more than unknown
+  /// voxels, x fastest.
   template <class Visit>
   void for_each_known_block(Visit&& visit) const {
     for_each_block(window(), [&](const BlockIndex& index) {

@@ -16,8 +16,8 @@ namespace swiftlet {
 /// What can be asked, whoever holds the blocks: the live RollingMap, a MapSnapshot of it, a
 /// BlockMap in memory (a loaded file, a copy), the ground station's mirror. The queries in query/
 /// are templates over it.
-///   voxel_m()   edge of a cell [m]
-///   scale()     how its cells are read
+///   voxel_m()   edge of a voxel [m]
+///   scale()     how its voxels are read
 ///   extent()    a box of blocks outside of which nothing is known
 ///   find(b)     the block, or null where nothing is known
 ///   for_each_known_block(visit)   visit(BlockIndex, const VoxelBlock&) for every block there is
@@ -44,10 +44,10 @@ concept OccupancyMap = requires(const Map& map, const BlockIndex& index, const V
 template <class Map>
 class VoxelLookup {
  public:
-  /// The byte of a cell; kUnknownCell where nothing is known.
+  /// The byte of a voxel; kUnknownVoxel where nothing is known.
   [[nodiscard]] QuantizedLogOdds log_odds(const VoxelIndex& voxel) const {
     const VoxelBlock* block = self().find(block_of(voxel));
-    return block == nullptr ? kUnknownCell : block->cells[offset_in_block(voxel)];
+    return block == nullptr ? kUnknownVoxel : block->voxels[offset_in_block(voxel)];
   }
   /// Free, occupied or unknown, by the map's own thresholds.
   [[nodiscard]] Occupancy occupancy(const VoxelIndex& voxel) const {
@@ -59,13 +59,13 @@ class VoxelLookup {
   }
 
   // The same of a point.
-  /// The byte of the cell around a point [m, world].
+  /// The byte of the voxel around a point [m, world].
   template <std::convertible_to<Eigen::Vector3d> Point>
   [[nodiscard]] QuantizedLogOdds log_odds(const Point& p_world) const {
     constexpr double kFirstBeyond = 2147483648.0;  // an index is an int32
     const Eigen::Vector3d p = p_world;
     const double voxel_m = self().voxel_m();
-    if (!(p.array().abs() < kFirstBeyond * voxel_m).all()) return kUnknownCell;
+    if (!(p.array().abs() < kFirstBeyond * voxel_m).all()) return kUnknownVoxel;
     return log_odds(voxel_containing(p, voxel_m));
   }
   /// Free, occupied or unknown, at a point [m, world].

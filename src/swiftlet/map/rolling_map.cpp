@@ -17,7 +17,7 @@ Status validate(const RollingMap::Options& o) {
   const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
   if (!positive(o.voxel_m) || o.voxel_m > RollingMap::kMaxCoordinate_m || o.voxel_m < 1e-3) {
     return fail(ErrorCode::kInvalidConfig, "map.voxel_m",
-                "the cell size must lie between 1 mm and 1000 km");
+                "the voxel size must lie between 1 mm and 1000 km");
   }
   for (int axis = 0; axis < 3; ++axis) {
     if (!positive(o.trigger_m[axis])) {
@@ -26,7 +26,7 @@ Status validate(const RollingMap::Options& o) {
     }
     if (!positive(o.size_m[axis]) || o.size_m[axis] < o.voxel_m) {
       return fail(ErrorCode::kInvalidConfig, "map.size_m",
-                  "the window must hold at least one cell along each axis");
+                  "the window must hold at least one voxel along each axis");
     }
   }
   return Done{};
@@ -35,7 +35,7 @@ Status validate(const RollingMap::Options& o) {
 /// Whole blocks that cover size_m, and one to spare.
 Eigen::Vector3d blocks_for(const RollingMap::Options& o) {
   const double block_m = o.voxel_m * kBlockEdge;
-  // 1e-9: 1.6 m are one block of 0.2 m cells, whatever the last bit of the division says.
+  // 1e-9: 1.6 m are one block of 0.2 m voxels, whatever the last bit of the division says.
   return ((o.size_m / block_m).array() - 1e-9).ceil() + 1.0;
 }
 

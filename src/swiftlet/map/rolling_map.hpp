@@ -24,12 +24,12 @@ namespace swiftlet {
 /// Frame: world. The window is a box of whole 8 x 8 x 8-voxel blocks, at least size_m plus one
 /// block along each axis, so that wherever inside a block the vehicle is, the box of size_m
 /// around it is covered. It moves by whole blocks: blocks are the unit of storage, of sharing with
-/// readers and of eviction, so a move by cells would split every block on the rim for no gain; the
+/// readers and of eviction, so a move by voxels would split every block on the rim for no gain; the
 /// spare block pays for the difference. Thread safety: one writer; any readers through reader().
 /// Invariants:
 ///   1. a block exists only inside window(); recentre() is the only place that moves it
-///   2. a cell that entered the window and was neither observed nor restored is exactly
-///   kUnknownCell
+///   2. a voxel that entered the window and was neither observed nor restored is exactly
+///   kUnknownVoxel
 ///   3. a block that readers may see never changes (SnapshotStore)
 /// Cost: look-up and update O(1), recentre O(slab that leaves and enters), snapshot O(blocks in the
 /// window) in words. Never allocates after construction.
@@ -38,9 +38,9 @@ class RollingMap : public VoxelLookup<RollingMap> {
   /// The vehicle stays within this distance of the origin along each axis, so that indices fit.
   static constexpr double kMaxCoordinate_m = 1e6;
 
-  /// Cell size and window.
+  /// Voxel size and window.
   struct Options {
-    double voxel_m = 0.2;  ///< edge of a cell
+    double voxel_m = 0.2;  ///< edge of a voxel
     Eigen::Vector3d size_m{20.0, 20.0,
                            6.0};  ///< edges of the box that is covered around the vehicle
     Eigen::Vector3d trigger_m{1.0, 1.0, 1.0};  ///< half extents of the trigger box
@@ -53,15 +53,15 @@ class RollingMap : public VoxelLookup<RollingMap> {
     std::size_t blocks_restored = 0;  ///< that entered it and were known
   };
 
-  /// `scale`: how its readers are to understand the cells; the map itself only stores them.
+  /// `scale`: how its readers are to understand the voxels; the map itself only stores them.
   /// Errors: kInvalidConfig if an option is not positive and finite, or the window has no room for
-  /// a cell or more than 2^24 blocks (8 GiB); kOutOfMemory if the blocks cannot be reserved.
+  /// a voxel or more than 2^24 blocks (8 GiB); kOutOfMemory if the blocks cannot be reserved.
   [[nodiscard]] static Expected<RollingMap> create(const Options& options,
                                                    const LogOddsScale& scale = {});
 
-  /// Edge of a cell [m]
+  /// Edge of a voxel [m]
   [[nodiscard]] double voxel_m() const { return options_.voxel_m; }
-  /// How its cells are read.
+  /// How its voxels are read.
   [[nodiscard]] const LogOddsScale& scale() const { return scale_; }
   /// The box of blocks that the map covers now.
   [[nodiscard]] const BlockWindow& window() const { return directory_.window(); }
@@ -74,14 +74,14 @@ class RollingMap : public VoxelLookup<RollingMap> {
   /// it; null drops and forgets. REQUIRES: p_world finite and within +-10^6 m.
   Shift recentre(const Eigen::Vector3d& p_world, BlockArchive* archive);
 
-  /// Forgets every cell, as if nothing had ever been mapped; the next recentre() is a first one.
+  /// Forgets every voxel, as if nothing had ever been mapped; the next recentre() is a first one.
   /// Snapshots that readers hold keep what they show. Cost: O(blocks of the window).
   void clear();
 
-  /// The block, or null if the window holds nothing but unknown cells there (or it lies outside).
+  /// The block, or null if the window holds nothing but unknown voxels there (or it lies outside).
   [[nodiscard]] const VoxelBlock* find(const BlockIndex& index) const;
 
-  /// The block for writing, made of unknown cells if there was none. The reference is good until
+  /// The block for writing, made of unknown voxels if there was none. The reference is good until
   /// the next publish(). REQUIRES: window().contains(index).
   [[nodiscard]] VoxelBlock& writable(const BlockIndex& index);
 

@@ -45,7 +45,7 @@ class SnapshotStore {
   [[nodiscard]] BlockPool& pool() { return pool_; }
   [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
   [[nodiscard]] bool is_shared(BlockId id) const { return pool_.born(id) < epoch_; }
-  /// A new block of this epoch with unspecified cells.
+  /// A new block of this epoch with unspecified voxels.
   [[nodiscard]] BlockId take();
   /// The map no longer uses this block; it goes back to the pool as soon as no snapshot shows it.
   void drop(BlockId id);

@@ -10,12 +10,12 @@
 
 namespace swiftlet {
 
-/// 8 x 8 x 8 cells, x fastest, then y, then z (see offset_in_block()). 512 bytes: eight cache
+/// 8 x 8 x 8 voxels, x fastest, then y, then z (see offset_in_block()). 512 bytes: eight cache
 /// lines.
 struct alignas(64) VoxelBlock {
-  std::array<QuantizedLogOdds, kBlockVoxels> cells;
+  std::array<QuantizedLogOdds, kBlockVoxels> voxels;
 
-  void clear() { cells.fill(kUnknownCell); }
+  void clear() { voxels.fill(kUnknownVoxel); }
   friend bool operator==(const VoxelBlock&, const VoxelBlock&) = default;
 };
 static_assert(sizeof(VoxelBlock) == kBlockVoxels);

@@ -21,7 +21,7 @@ namespace config_fields {
 
 template <class Options, class Visit>
 void map(Options& o, Visit& visit) {
-  visit(ConfigField{"map.voxel_m", "edge of a cell", 0.005, 10.0}, o.voxel_m);
+  visit(ConfigField{"map.voxel_m", "edge of a voxel", 0.005, 10.0}, o.voxel_m);
   visit(ConfigField{"map.size_m", "size of the window that follows the vehicle (x, y, z)", 0.005,
                     10000.0},
         o.size_m);
@@ -114,7 +114,7 @@ void sensor(Options& o, Visit& visit) {
         o.subpixel_px);
   visit(ConfigField{"sensor.importance_m", "k of the inverse sensor model", 0.001, 10.0},
         o.model.importance_m);
-  visit(ConfigField{"sensor.p_min", "occupancy of a cell that a ray passes", 0.01, 0.49},
+  visit(ConfigField{"sensor.p_min", "occupancy of a voxel that a ray passes", 0.01, 0.49},
         o.model.p_min);
   visit(ConfigField{"sensor.p_max",
                     "highest occupancy that one reading can claim; of the inverse sensor model",
@@ -133,7 +133,7 @@ void integrate(Options& o, Visit& visit) {
         o.model);
   visit(ConfigField{"integrate.ray_method", "how rays are traced (see `swiftlet list rays`)"},
         o.ray_method);
-  visit(ConfigField{"integrate.logodds_per_step", "one step of a cell's byte, in log-odds", 0.001,
+  visit(ConfigField{"integrate.logodds_per_step", "one step of a voxel's byte, in log-odds", 0.001,
                     1.0},
         o.logodds_per_step);
   visit(ConfigField{"integrate.threads", "threads that share a frame; the map is the same", 1, 64},
@@ -146,7 +146,7 @@ void integrate(Options& o, Visit& visit) {
       o.max_frame_ms);
   visit(
       ConfigField{"integrate.decay_s",
-                  "in so many seconds an occupied cell becomes unknown where the camera looks and "
+                  "in so many seconds an occupied voxel becomes unknown where the camera looks and "
                   "sees nothing, not even a background; 0: never",
                   0.0, 3600.0},
       o.decay_s);
@@ -154,9 +154,9 @@ void integrate(Options& o, Visit& visit) {
 
 template <class Options, class Visit>
 void occupancy(Options& o, Visit& visit) {
-  visit(ConfigField{"occupancy.free_below", "cells below this byte are free", 1, 127},
+  visit(ConfigField{"occupancy.free_below", "voxels below this byte are free", 1, 127},
         o.free_below);
-  visit(ConfigField{"occupancy.occupied_from", "cells from this byte on are occupied", 128, 255},
+  visit(ConfigField{"occupancy.occupied_from", "voxels from this byte on are occupied", 128, 255},
         o.occupied_from);
 }
 

@@ -27,7 +27,7 @@ struct MapUpdate {
   /// Where the middle of the window should be: at the camera, or ahead of it (map.lookahead_s).
   Eigen::Vector3d window_goal = Eigen::Vector3d::Zero();
   IntegrationTally tally;     ///< what was summed, and into how much
-  std::size_t decayed = 0;    ///< cells that lost belief because nothing is seen where they are
+  std::size_t decayed = 0;    ///< voxels that lost belief because nothing is seen where they are
   bool was_published = true;  ///< false: readers hold every snapshot slot, so they see an older map
   StageTimes times;           ///< of each stage
 };

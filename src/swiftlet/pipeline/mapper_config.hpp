@@ -25,7 +25,7 @@ inline constexpr std::string_view kThesisModel = "inverse_sensor_model";
 
 /// Every parameter of the mapper, with its default.
 struct MapperConfig {
-  RollingMap::Options map;                            ///< cell size, window and trigger box
+  RollingMap::Options map;                            ///< voxel size, window and trigger box
   NewWorldRule on_new_world = NewWorldRule::kRefuse;  ///< when the poses lose their place
   WindowOptions window;                               ///< where the window lies around the vehicle
   QualityLimits quality;                              ///< which images are not worth a fusion
@@ -34,7 +34,7 @@ struct MapperConfig {
   IntegrateOptions integrate;                         ///< how a frame is fused
   OccupancyThresholds occupancy;                      ///< where belief becomes a claim
 
-  /// How the cells of its map are read.
+  /// How the voxels of its map are read.
   [[nodiscard]] LogOddsScale scale() const { return {occupancy, integrate.logodds_per_step}; }
 
   /// The options of the depth steps, with the one that the measurement model wants behind the range

@@ -12,11 +12,11 @@
 
 #include "swiftlet/base/contract.hpp"
 #include "swiftlet/base/voxel_box.hpp"
-#include "swiftlet/query/cell_counts.hpp"
+#include "swiftlet/query/voxel_counts.hpp"
 
 namespace swiftlet {
 
-/// Calls visit(const VoxelBlock*, VoxelBox part) for every block that a box of cells touches, x
+/// Calls visit(const VoxelBlock*, VoxelBox part) for every block that a box of voxels touches, x
 /// fastest: `part` is what of the block lies in the box, the block null where nothing is known.
 /// REQUIRES: box.first <= box.last along each axis.
 template <OccupancyMap Map, class Visit>
@@ -33,12 +33,12 @@ void for_each_block_of_box(const Map& map, const VoxelBox& box, Visit&& visit) {
   });
 }
 
-/// The cells of a box by state, by the map's own thresholds; what lies outside the map is unknown.
-/// REQUIRES: box.first <= box.last along each axis. Cost: O(cells). Does not allocate.
+/// The voxels of a box by state, by the map's own thresholds; what lies outside the map is unknown.
+/// REQUIRES: box.first <= box.last along each axis. Cost: O(voxels). Does not allocate.
 template <OccupancyMap Map>
-[[nodiscard]] CellCounts count_cells(const Map& map, const VoxelBox& box) {
+[[nodiscard]] VoxelCounts count_voxels(const Map& map, const VoxelBox& box) {
   const OccupancyThresholds thresholds = map.scale().thresholds;
-  CellCounts counts;
+  VoxelCounts counts;
   for_each_block_of_box(map, box, [&](const VoxelBlock* block, const VoxelBox& part) {
     if (block == nullptr) {
       counts.unknown += part.voxel_count();
@@ -47,17 +47,17 @@ template <OccupancyMap Map>
     for (VoxelIndex v = part.first; v.z <= part.last.z; ++v.z) {
       for (v.y = part.first.y; v.y <= part.last.y; ++v.y) {
         for (v.x = part.first.x; v.x <= part.last.x; ++v.x)
-          counts.add(thresholds.classify(block->cells[offset_in_block(v)]));
+          counts.add(thresholds.classify(block->voxels[offset_in_block(v)]));
       }
     }
   });
   return counts;
 }
 
-/// The cells of a box as a dense array in the caller's buffer, each what `read` makes of its byte.
+/// The voxels of a box as a dense array in the caller's buffer, each what `read` makes of its byte.
 /// Shape (nx, ny, nz), x fastest, then y, then z, from box.first to box.last; what lies outside the
-/// map is read(kUnknownCell). REQUIRES: box.first <= box.last along each axis and room in `out` for
-/// box.voxel_count(); what is behind stays as it is. Cost: O(cells). Does not allocate.
+/// map is read(kUnknownVoxel). REQUIRES: box.first <= box.last along each axis and room in `out`
+/// for box.voxel_count(); what is behind stays as it is. Cost: O(voxels). Does not allocate.
 template <OccupancyMap Map, class T, class Read>
 void copy_box(const Map& map, const VoxelBox& box, std::span<T> out, Read&& read) {
   SWIFTLET_REQUIRE(out.size() >= box.voxel_count(), "the buffer has room for the box");
@@ -73,10 +73,10 @@ void copy_box(const Map& map, const VoxelBox& box, std::span<T> out, Read&& read
         const std::size_t row = along(box.first.z, v.z) * ny + along(box.first.y, v.y);
         T* const to = out.data() + row * nx + along(box.first.x, v.x);
         if (block == nullptr) {
-          std::fill_n(to, length, read(kUnknownCell));
+          std::fill_n(to, length, read(kUnknownVoxel));
         } else {
-          std::transform(&block->cells[offset_in_block(v)],
-                         &block->cells[offset_in_block(v)] + length, to, read);
+          std::transform(&block->voxels[offset_in_block(v)],
+                         &block->voxels[offset_in_block(v)] + length, to, read);
         }
       }
     }
@@ -86,13 +86,13 @@ void copy_box(const Map& map, const VoxelBox& box, std::span<T> out, Read&& read
 /// The bytes themselves.
 template <OccupancyMap Map>
 void copy_box(const Map& map, const VoxelBox& box, std::span<QuantizedLogOdds> out) {
-  copy_box(map, box, out, [](QuantizedLogOdds cell) { return cell; });
+  copy_box(map, box, out, [](QuantizedLogOdds voxel) { return voxel; });
 }
 /// Free, unknown or occupied, by the map's own thresholds.
 template <OccupancyMap Map>
 void copy_box(const Map& map, const VoxelBox& box, std::span<Occupancy> out) {
   const OccupancyThresholds thresholds = map.scale().thresholds;
-  copy_box(map, box, out, [&](QuantizedLogOdds cell) { return thresholds.classify(cell); });
+  copy_box(map, box, out, [&](QuantizedLogOdds voxel) { return thresholds.classify(voxel); });
 }
 /// Probabilities of matter, 0 to 1.
 template <OccupancyMap Map>
@@ -101,7 +101,7 @@ void copy_box(const Map& map, const VoxelBox& box, std::span<float> out) {
   const LogOddsScale scale = map.scale();
   for (std::size_t i = 0; i < probability.size(); ++i)
     probability[i] = static_cast<float>(scale.probability(static_cast<QuantizedLogOdds>(i)));
-  copy_box(map, box, out, [&](QuantizedLogOdds cell) { return probability[cell]; });
+  copy_box(map, box, out, [&](QuantizedLogOdds voxel) { return probability[voxel]; });
 }
 
 }  // namespace swiftlet

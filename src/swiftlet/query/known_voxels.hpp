@@ -9,15 +9,15 @@
 
 namespace swiftlet {
 
-/// Calls visit(VoxelIndex, QuantizedLogOdds, Occupancy) for every cell of a block that is free or
+/// Calls visit(VoxelIndex, QuantizedLogOdds, Occupancy) for every voxel of a block that is free or
 /// occupied.
 template <class Visit>
 void for_each_known_voxel(const BlockIndex& index, const VoxelBlock& block,
                           const OccupancyThresholds& thresholds, Visit&& visit) {
   for (int offset = 0; offset < kBlockVoxels; ++offset) {
-    const QuantizedLogOdds cell = block.cells[static_cast<std::size_t>(offset)];
-    const Occupancy state = thresholds.classify(cell);
-    if (state != Occupancy::kUnknown) visit(voxel_at(index, offset), cell, state);
+    const QuantizedLogOdds voxel = block.voxels[static_cast<std::size_t>(offset)];
+    const Occupancy state = thresholds.classify(voxel);
+    if (state != Occupancy::kUnknown) visit(voxel_at(index, offset), voxel, state);
   }
 }
 

@@ -9,7 +9,7 @@ namespace swiftlet {
 
 void MapSummary::add(const BlockIndex& index, const VoxelBlock& block,
                      const OccupancyThresholds& thresholds) {
-  cells.add(block, thresholds);
+  voxels.add(block, thresholds);
   for_each_known_voxel(index, block, thresholds,
                        [&](const VoxelIndex& v, QuantizedLogOdds, Occupancy) {
                          if (!bounds) bounds = VoxelBox{v, v};

@@ -6,16 +6,16 @@
 #include <optional>
 
 #include "swiftlet/base/voxel_box.hpp"
-#include "swiftlet/query/cell_counts.hpp"
+#include "swiftlet/query/voxel_counts.hpp"
 
 namespace swiftlet {
 
 /// How much a map knows, and where.
 struct MapSummary {
-  CellCounts cells;                ///< of the blocks there are
-  std::optional<VoxelBox> bounds;  ///< of the free and occupied cells; none: there are none
+  VoxelCounts voxels;              ///< of the blocks there are
+  std::optional<VoxelBox> bounds;  ///< of the free and occupied voxels; none: there are none
 
-  /// The cells of a block more.
+  /// The voxels of a block more.
   void add(const BlockIndex& index, const VoxelBlock& block, const OccupancyThresholds& thresholds);
 };
 

@@ -15,7 +15,7 @@ namespace swiftlet {
 struct RayHit {
   Occupancy state;    ///< kFree: nothing in the way; kOccupied: matter; kUnknown: never seen
   double distance_m;  ///< along the ray to the face of `voxel`, or the whole length if kFree
-  VoxelIndex voxel;   ///< the first cell that is not free; the last one if all are free or the ray
+  VoxelIndex voxel;   ///< the first voxel that is not free; the last one if all are free or the ray
                       ///< leaves the map
 };
 
@@ -23,8 +23,8 @@ struct RayHit {
 /// means it.
 enum class UnknownSpace { kStops, kPasses };
 
-/// Follows a segment [m, world] through every cell it crosses, up to the first that is not free.
-/// Cells outside the map are unknown. By thresholds of the caller's, or those of the map.
+/// Follows a segment [m, world] through every voxel it crosses, up to the first that is not free.
+/// Voxels outside the map are unknown. By thresholds of the caller's, or those of the map.
 /// REQUIRES: both ends finite. Cost: O(length / voxel_m). Does not allocate.
 template <OccupancyMap Map>
 [[nodiscard]] RayHit cast_ray(const Map& map, const Eigen::Vector3d& from_world,
@@ -48,15 +48,15 @@ template <OccupancyMap Map>
 
   GridWalk walk(ray, box, clip);
   do {
-    const Occupancy state = thresholds.classify(map.log_odds(walk.cell()));
+    const Occupancy state = thresholds.classify(map.log_odds(walk.voxel()));
     const bool stops =
         state == Occupancy::kOccupied || (state == Occupancy::kUnknown && unknown_stops);
-    if (stops) return {state, walk.entered_at() * length_m, walk.cell()};
+    if (stops) return {state, walk.entered_at() * length_m, walk.voxel()};
   } while (walk.advance());
 
   const bool ends_outside = clip.end < 1.0;
   if (!ends_outside || !unknown_stops) return clear;
-  return {Occupancy::kUnknown, clip.end * length_m, walk.cell()};
+  return {Occupancy::kUnknown, clip.end * length_m, walk.voxel()};
 }
 /// By the map's own thresholds.
 template <OccupancyMap Map>

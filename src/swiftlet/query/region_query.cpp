@@ -8,18 +8,18 @@
 #include <limits>
 #include <numbers>
 
-#include "swiftlet/query/sweep/cell_scan_private.hpp"
+#include "swiftlet/query/sweep/voxel_scan_private.hpp"
 
 namespace swiftlet {
 namespace {
 
-/// Counts cells one by one and remembers the nearest that is not free. [cells]
+/// Counts voxels one by one and remembers the nearest that is not free. [voxels]
 class RegionCount {
  public:
   explicit RegionCount(const Eigen::Vector3d& origin) : origin_(origin) {}
 
   void add(const VoxelIndex& v, Occupancy state) {
-    CellCounts& counts = cells.counts;
+    VoxelCounts& counts = voxels.counts;
     ++(state == Occupancy::kFree      ? counts.free
        : state == Occupancy::kUnknown ? counts.unknown
                                       : counts.occupied);
@@ -28,20 +28,20 @@ class RegionCount {
         (Eigen::Vector3d(v.x + 0.5, v.y + 0.5, v.z + 0.5) - origin_).squaredNorm();
     if (square >= nearest_square_) return;
     nearest_square_ = square;
-    cells.first_not_free = v;
+    voxels.first_not_free = v;
   }
 
-  RegionCells cells;
+  RegionVoxels voxels;
 
  private:
   Eigen::Vector3d origin_;
   double nearest_square_ = std::numeric_limits<double>::infinity();
 };
 
-/// Calls visit(VoxelIndex, Occupancy) for every cell of a box, whatever its state.
+/// Calls visit(VoxelIndex, Occupancy) for every voxel of a box, whatever its state.
 template <class Visit>
-void for_each_cell(const MapSnapshot& map, const VoxelBox& box,
-                   const OccupancyThresholds& thresholds, Visit&& visit) {
+void for_each_voxel(const MapSnapshot& map, const VoxelBox& box,
+                    const OccupancyThresholds& thresholds, Visit&& visit) {
   for (VoxelIndex v = box.first; v.z <= box.last.z; ++v.z) {
     for (v.y = box.first.y; v.y <= box.last.y; ++v.y) {
       for (v.x = box.first.x; v.x <= box.last.x; ++v.x)
@@ -69,30 +69,30 @@ double distance_to_cone(const Eigen::Vector3d& from_tip, const Eigen::Vector3d& 
 
 }  // namespace
 
-Expected<RegionCells> cells_in_body(const MapSnapshot& map, const BodyShape& body,
-                                    const Transform<World, Body>& T_world_body,
-                                    const OccupancyThresholds& thresholds) {
+Expected<RegionVoxels> voxels_in_body(const MapSnapshot& map, const BodyShape& body,
+                                      const Transform<World, Body>& T_world_body,
+                                      const OccupancyThresholds& thresholds) {
   if (!is_place(T_world_body.translation())) {
     return fail(ErrorCode::kUsage, "region", "its place cannot be used",
                 "give a finite place within 1000 km of the origin");
   }
-  const double cells_per_m = 1.0 / map.voxel_m();
+  const double voxels_per_m = 1.0 / map.voxel_m();
   const VoxelBox window = voxel_box(map.window());
   const Eigen::Matrix3d R = T_world_body.rotation().toRotationMatrix();
-  const Eigen::Vector3d origin = T_world_body.translation() * cells_per_m;
+  const Eigen::Vector3d origin = T_world_body.translation() * voxels_per_m;
   const auto parts = body.parts();
   RegionCount count(origin);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto part_at = [&](std::size_t k) {
-      return make_moving_part(parts[k], R, origin, Eigen::Vector3d::Zero(), cells_per_m, 0.0);
+      return make_moving_part(parts[k], R, origin, Eigen::Vector3d::Zero(), voxels_per_m, 0.0);
     };
     const MovingPart part = part_at(i);
     const Eigen::Array3d extent = part.half_extent();
     const auto touched =
-        touched_cells(part.centre.array() - extent, part.centre.array() + extent, window);
-    count.cells.is_inside = count.cells.is_inside && touched.is_inside;
+        touched_voxels(part.centre.array() - extent, part.centre.array() + extent, window);
+    count.voxels.is_inside = count.voxels.is_inside && touched.is_inside;
     if (!touched.is_any) continue;
-    for_each_cell(map, touched.box, thresholds, [&](const VoxelIndex& v, Occupancy state) {
+    for_each_voxel(map, touched.box, thresholds, [&](const VoxelIndex& v, Occupancy state) {
       if (!may_touch(part, cube_of(v))) return;
       for (std::size_t k = 0; k < i; ++k) {
         if (may_touch(part_at(k), cube_of(v))) return;  // counted with an earlier part
@@ -100,11 +100,11 @@ Expected<RegionCells> cells_in_body(const MapSnapshot& map, const BodyShape& bod
       count.add(v, state);
     });
   }
-  return count.cells;
+  return count.voxels;
 }
 
-Expected<RegionCells> cells_in_cone(const MapSnapshot& map, const ConeRegion& cone,
-                                    const OccupancyThresholds& thresholds) {
+Expected<RegionVoxels> voxels_in_cone(const MapSnapshot& map, const ConeRegion& cone,
+                                      const OccupancyThresholds& thresholds) {
   const double length = cone.axis_world.norm();
   const bool is_sound = is_place(cone.tip_world) && length > 0.0 && std::isfinite(length) &&
                         cone.half_angle_rad > 0.0 && cone.half_angle_rad < 0.5 * std::numbers::pi &&
@@ -113,26 +113,26 @@ Expected<RegionCells> cells_in_cone(const MapSnapshot& map, const ConeRegion& co
     return fail(ErrorCode::kUsage, "region", "the cone cannot be used",
                 "give finite numbers, an axis that is not 0 and an angle below 90 degrees");
   }
-  const double cells_per_m = 1.0 / map.voxel_m();
+  const double voxels_per_m = 1.0 / map.voxel_m();
   const Eigen::Vector3d axis = cone.axis_world / length;
-  const Eigen::Vector3d tip = cone.tip_world * cells_per_m;
-  const double reach = cone.length_m * cells_per_m;
+  const Eigen::Vector3d tip = cone.tip_world * voxels_per_m;
+  const double reach = cone.length_m * voxels_per_m;
   const double end_radius = reach * std::tan(cone.half_angle_rad);
   // The box around tip and end: a disc reaches along an axis by the sine of its angle to it.
   const Eigen::Array3d end = (tip + reach * axis).array();
   const Eigen::Array3d disc = end_radius * (1.0 - axis.array().square()).max(0.0).sqrt();
-  const TouchedCells touched = touched_cells(tip.array().min(end - disc),
-                                             tip.array().max(end + disc), voxel_box(map.window()));
+  const TouchedVoxels touched = touched_voxels(
+      tip.array().min(end - disc), tip.array().max(end + disc), voxel_box(map.window()));
   RegionCount count(tip);
-  count.cells.is_inside = touched.is_inside;
-  if (!touched.is_any) return count.cells;
-  const double half_diagonal = 0.5 * std::sqrt(3.0) + kSlack_cells;
-  for_each_cell(map, touched.box, thresholds, [&](const VoxelIndex& v, Occupancy state) {
+  count.voxels.is_inside = touched.is_inside;
+  if (!touched.is_any) return count.voxels;
+  const double half_diagonal = 0.5 * std::sqrt(3.0) + kSlack_voxels;
+  for_each_voxel(map, touched.box, thresholds, [&](const VoxelIndex& v, Occupancy state) {
     const Eigen::Vector3d from_tip = cube_of(v).centre.matrix() - tip;
     if (distance_to_cone(from_tip, axis, cone.half_angle_rad, reach) <= half_diagonal)
       count.add(v, state);
   });
-  return count.cells;
+  return count.voxels;
 }
 
 }  // namespace swiftlet

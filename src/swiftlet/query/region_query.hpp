@@ -8,17 +8,17 @@
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/map/map_snapshot.hpp"
-#include "swiftlet/query/cell_counts.hpp"
 #include "swiftlet/query/sweep/body_shape.hpp"
+#include "swiftlet/query/voxel_counts.hpp"
 
 namespace swiftlet {
 
 /// What a region holds.
-struct RegionCells {
-  CellCounts counts;      ///< by state
+struct RegionVoxels {
+  VoxelCounts counts;     ///< by state
   bool is_inside = true;  ///< false: a part of it lies outside the window, where nothing is counted
-  /// The cell that is not free and nearest, by its centre, to the origin of the region's frame (the
-  /// tip of a cone).
+  /// The voxel that is not free and nearest, by its centre, to the origin of the region's frame
+  /// (the tip of a cone).
   std::optional<VoxelIndex> first_not_free;
 
   /// Whether all of it is known to be free.
@@ -35,16 +35,16 @@ struct ConeRegion {
   double length_m = 1.0;                                  ///< along the axis
 };
 
-/// The cells that a sphere, capsule, box or union at a pose touches; of a union, those of each
-/// part. Conservative and as tight as sweep(). Errors: kUsage, as sweep(). Cost: cells of the
+/// The voxels that a sphere, capsule, box or union at a pose touches; of a union, those of each
+/// part. Conservative and as tight as sweep(). Errors: kUsage, as sweep(). Cost: voxels of the
 /// region. Does not allocate, unless it fails.
-[[nodiscard]] Expected<RegionCells> cells_in_body(const MapSnapshot& map, const BodyShape& body,
-                                                  const Transform<World, Body>& T_world_body,
-                                                  const OccupancyThresholds& thresholds = {});
+[[nodiscard]] Expected<RegionVoxels> voxels_in_body(const MapSnapshot& map, const BodyShape& body,
+                                                    const Transform<World, Body>& T_world_body,
+                                                    const OccupancyThresholds& thresholds = {});
 
-/// The cells that a cone touches, and those beside it by less than half a cell's diagonal: a cell
-/// is taken for the ball around it. Errors: kUsage if a number cannot be used.
-[[nodiscard]] Expected<RegionCells> cells_in_cone(const MapSnapshot& map, const ConeRegion& cone,
-                                                  const OccupancyThresholds& thresholds = {});
+/// The voxels that a cone touches, and those beside it by less than half a voxel's diagonal: a
+/// voxel is taken for the ball around it. Errors: kUsage if a number cannot be used.
+[[nodiscard]] Expected<RegionVoxels> voxels_in_cone(const MapSnapshot& map, const ConeRegion& cone,
+                                                    const OccupancyThresholds& thresholds = {});
 
 }  // namespace swiftlet

@@ -9,19 +9,19 @@
 
 namespace swiftlet::render {
 
-BlockMap coarser_map(const BlockMap& map, int cells) {
+BlockMap coarser_map(const BlockMap& map, int voxels) {
   MapHeader header = map.header();
-  header.voxel_m *= cells;
+  header.voxel_m *= voxels;
   BlockMap out(header);
-  const auto place = [cells](std::int32_t v) { return (v >= 0 ? v : v - cells + 1) / cells; };
-  for_each_known_voxel(map, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
+  const auto place = [voxels](std::int32_t v) { return (v >= 0 ? v : v - voxels + 1) / voxels; };
+  for_each_known_voxel(map, [&](const VoxelIndex& v, QuantizedLogOdds voxel, Occupancy state) {
     const VoxelIndex large{place(v.x), place(v.y), place(v.z)};
-    QuantizedLogOdds& kept = out.writable(block_of(large)).cells[offset_in_block(large)];
+    QuantizedLogOdds& kept = out.writable(block_of(large)).voxels[offset_in_block(large)];
     const Occupancy before = map.scale().classify(kept);
     if (before == Occupancy::kUnknown || (state == Occupancy::kOccupied && before != state)) {
-      kept = cell;
+      kept = voxel;
     } else if (state == before) {
-      kept = state == Occupancy::kOccupied ? std::max(kept, cell) : std::min(kept, cell);
+      kept = state == Occupancy::kOccupied ? std::max(kept, voxel) : std::min(kept, voxel);
     }
   });
   return out;

@@ -7,7 +7,7 @@
 
 namespace swiftlet::render {
 
-/// The map in cells of so many along each axis: occupied if one of them is, else free if one is.
-[[nodiscard]] BlockMap coarser_map(const BlockMap& map, int cells);
+/// The map in voxels of so many along each axis: occupied if one of them is, else free if one is.
+[[nodiscard]] BlockMap coarser_map(const BlockMap& map, int voxels);
 
 }  // namespace swiftlet::render

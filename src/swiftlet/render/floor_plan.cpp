@@ -19,7 +19,7 @@ constexpr Colour kInk{70, 70, 70};
 constexpr Colour kStartInk{214, 39, 40};
 constexpr double kLeastTick_px = 4.0;  // between two ticks
 
-/// 1 m, or the first of 2, 5, 10, 20 .. that keeps ticks apart, however large the cells.
+/// 1 m, or the first of 2, 5, 10, 20 .. that keeps ticks apart, however large the voxels.
 double metres_between_ticks(double px_per_m) {
   double step_m = 1.0;
   for (int i = 0; step_m * px_per_m < kLeastTick_px && std::isfinite(step_m); ++i)
@@ -32,27 +32,27 @@ int whole_px(double px) { return static_cast<int>(std::lround(std::clamp(px, -1e
 
 }  // namespace
 
-FloorPlan::FloorPlan(const BlockMap& map, const VoxelBox& box, int cell_px)
+FloorPlan::FloorPlan(const BlockMap& map, const VoxelBox& box, int voxel_px)
     : box_(box),
       voxel_m_(map.voxel_m()),
       start_m_(map.header().start_m),
-      cell_px_(cell_px),
-      tick_m_(metres_between_ticks(cell_px / map.voxel_m())),
-      picture_((box.last.y - box.first.y + 1) * cell_px + 2 * kMargin_px,
-               (box.last.x - box.first.x + 1) * cell_px + 2 * kMargin_px, kPaper) {}
+      voxel_px_(voxel_px),
+      tick_m_(metres_between_ticks(voxel_px / map.voxel_m())),
+      picture_((box.last.y - box.first.y + 1) * voxel_px + 2 * kMargin_px,
+               (box.last.x - box.first.x + 1) * voxel_px + 2 * kMargin_px, kPaper) {}
 
 void FloorPlan::fill_column(std::int32_t x, std::int32_t y, Colour colour) {
-  const int left = kMargin_px + (box_.last.y - y) * cell_px_;
-  const int top = kMargin_px + (box_.last.x - x) * cell_px_;
-  fill_rectangle(picture_, left, top, left + cell_px_, top + cell_px_, colour);
+  const int left = kMargin_px + (box_.last.y - y) * voxel_px_;
+  const int top = kMargin_px + (box_.last.x - x) * voxel_px_;
+  fill_rectangle(picture_, left, top, left + voxel_px_, top + voxel_px_, colour);
 }
 
 int FloorPlan::column_px(double y_m) const {
-  return kMargin_px + whole_px((box_.last.y + 1 - y_m / voxel_m_) * cell_px_);
+  return kMargin_px + whole_px((box_.last.y + 1 - y_m / voxel_m_) * voxel_px_);
 }
 
 int FloorPlan::row_px(double x_m) const {
-  return kMargin_px + whole_px((box_.last.x + 1 - x_m / voxel_m_) * cell_px_);
+  return kMargin_px + whole_px((box_.last.x + 1 - x_m / voxel_m_) * voxel_px_);
 }
 
 void FloorPlan::draw_ticks() {
@@ -77,7 +77,7 @@ void FloorPlan::draw_ticks() {
 }
 
 void FloorPlan::draw_scale_bar() {
-  const int bar_px = whole_px(tick_m_ / voxel_m_ * cell_px_);
+  const int bar_px = whole_px(tick_m_ / voxel_m_ * voxel_px_);
   const int bottom = picture_.height() - 4;
   fill_rectangle(picture_, kMargin_px, bottom - 5, kMargin_px + bar_px, bottom, kInk);
   fill_rectangle(picture_, kMargin_px + bar_px / 2, bottom - 4, kMargin_px + bar_px - 1, bottom - 1,
@@ -130,7 +130,7 @@ std::optional<std::int32_t> lowest_matter(const BlockMap& map, const VoxelBox& b
   return lowest;
 }
 
-VoxelBox cut_box(const VoxelBox& box, double voxel_m, const ViewOptions& options) {
+VoxelBox cut_box(const VoxelBox& box, double voxel_m, const ProjectionOptions& options) {
   VoxelBox cut = box;
   if (!options.z_m) return cut;
   cut.last.z = std::clamp(layer_at(*options.z_m, voxel_m), box.first.z - 1, box.last.z);

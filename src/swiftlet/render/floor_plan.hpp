@@ -9,22 +9,22 @@
 #include <optional>
 #include <unordered_map>
 
-#include "swiftlet/render/map_view.hpp"
+#include "swiftlet/render/projection.hpp"
 
 namespace swiftlet::render {
 
-/// A picture of the world from above, one square per column of cells: x forward is up, y left is
+/// A picture of the world from above, one square per column of voxels: x forward is up, y left is
 /// left. Around it a margin with a tick every metre (longer every five; in large maps every 2, 5,
 /// 10 .. metres) and in the lower left corner a bar from one tick to the next; a cross marks where
 /// the flight began, if the map tells it.
 class FloorPlan {
  public:
-  FloorPlan(const BlockMap& map, const VoxelBox& box, int cell_px);
+  FloorPlan(const BlockMap& map, const VoxelBox& box, int voxel_px);
 
   /// Colours the square of column (x, y). REQUIRES: the column lies in the box.
   void fill_column(std::int32_t x, std::int32_t y, Colour colour);
 
-  /// Draws ticks, scale bar and start over the cells and hands the picture out.
+  /// Draws ticks, scale bar and start over the voxels and hands the picture out.
   [[nodiscard]] Picture finish() &&;
 
  private:
@@ -37,16 +37,16 @@ class FloorPlan {
   VoxelBox box_;
   double voxel_m_;
   std::optional<Eigen::Vector3d> start_m_;
-  int cell_px_;
+  int voxel_px_;
   double tick_m_;  // between two ticks
   Picture picture_;
 };
 
-/// What a column of cells holds, within a box.
+/// What a column of voxels holds, within a box.
 struct Column {
   int occupied = 0;
   int free = 0;
-  std::int32_t highest = 0;  ///< z of the highest occupied cell; 0 if there is none
+  std::int32_t highest = 0;  ///< z of the highest occupied voxel; 0 if there is none
 };
 
 /// The columns of a box, counted in one pass over the blocks: most of a large box may be empty.
@@ -60,14 +60,15 @@ class Columns {
   std::unordered_map<BlockIndex, std::array<Column, kOfBlock>, BlockHash> by_block_;  // z = 0
 };
 
-/// The layer of cells at a coordinate, whatever the number is; 0 for NaN.
+/// The layer of voxels at a coordinate, whatever the number is; 0 for NaN.
 [[nodiscard]] std::int32_t layer_at(double m, double voxel_m);
 
-/// z of the lowest occupied cell in a box: the foot of the scale of heights.
+/// z of the lowest occupied voxel in a box: the foot of the scale of heights.
 [[nodiscard]] std::optional<std::int32_t> lowest_matter(const BlockMap& map, const VoxelBox& box);
 
 /// The box without what lies above options.z_m.
-[[nodiscard]] VoxelBox cut_box(const VoxelBox& box, double voxel_m, const ViewOptions& options);
+[[nodiscard]] VoxelBox cut_box(const VoxelBox& box, double voxel_m,
+                               const ProjectionOptions& options);
 
 /// Calls visit(x, y) for every column of a box.
 template <class Visit>

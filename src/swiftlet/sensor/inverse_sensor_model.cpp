@@ -14,11 +14,11 @@ namespace {
 
 const double kSqrtTwoPi = std::sqrt(2.0 * std::numbers::pi);
 
-/// Midpoint rule over +-6 sigma of a reading's scatter; the integrand jumps at 0, a cell boundary
+/// Midpoint rule over +-6 sigma of a reading's scatter; the integrand jumps at 0, a voxel boundary
 /// here.
-constexpr int kScatterCells = 600;
+constexpr int kScatterVoxels = 600;
 constexpr double kScatterLimit = 6.0;
-constexpr double kScatterStep = 2.0 * kScatterLimit / kScatterCells;
+constexpr double kScatterStep = 2.0 * kScatterLimit / kScatterVoxels;
 
 double logit(double p) { return std::log(p / (1.0 - p)); }
 
@@ -43,7 +43,7 @@ double InverseSensorModel::log_odds(double d_m, double sigma_m) const {
 
 double InverseSensorModel::expected_at_surface(double sigma_m) const {
   double sum = 0.0;
-  for (int i = 0; i < kScatterCells; ++i) {
+  for (int i = 0; i < kScatterVoxels; ++i) {
     const double scatter = -kScatterLimit + (i + 0.5) * kScatterStep;
     const double density = std::exp(-0.5 * scatter * scatter) / kSqrtTwoPi;
     sum += density * kScatterStep * log_odds(-scatter * sigma_m, sigma_m);

@@ -24,7 +24,7 @@ struct SensorOptions {
   return {intrinsics.fx(), options.baseline_m, options.subpixel_px};
 }
 
-/// A stereo depth camera as the map sees it: how much one reading says about one cell.
+/// A stereo depth camera as the map sees it: how much one reading says about one voxel.
 class StereoSensor {
  public:
   StereoSensor(const PinholeIntrinsics& intrinsics, const SensorOptions& options, double voxel_m,
@@ -38,20 +38,20 @@ class StereoSensor {
   [[nodiscard]] const InverseSensorModel& model() const { return model_; }
 
   /// Distance weighting DW = z^2 n^2 / density^2, density = f c: undoes the fall of pixel density
-  /// with distance, so that a cell fully covered by rays gets one observation a frame (method 6,
-  /// eq. 3.21). z is the cell's depth [m].
+  /// with distance, so that a voxel fully covered by rays gets one observation a frame (method 6,
+  /// eq. 3.21). z is the voxel's depth [m].
   [[nodiscard]] double weight(double z_m) const { return z_m * z_m * weight_per_z2_; }
 
-  /// Log-odds that a reading at depth z [m] gives a cell whose centre lies at depth z_cell [m].
+  /// Log-odds that a reading at depth z [m] gives a voxel whose centre lies at depth z_voxel [m].
   ///
-  /// A cell is no point: it counts as the slice of half a cell in front of and behind its centre,
+  /// A voxel is no point: it counts as the slice of half a voxel in front of and behind its centre,
   /// and d of the model is the distance from the reading to that slice. Else a surface seen with a
-  /// sigma of millimetres would fall between the centres of 20 cm cells and be in none of them.
-  [[nodiscard]] double log_odds(double z_cell_m, double z_reading_m, double sigma_m) const {
-    const double offset_m = z_cell_m - z_reading_m;
+  /// sigma of millimetres would fall between the centres of 20 cm voxels and be in none of them.
+  [[nodiscard]] double log_odds(double z_voxel_m, double z_reading_m, double sigma_m) const {
+    const double offset_m = z_voxel_m - z_reading_m;
     const bool is_clearly_in_front =
         offset_m < -half_voxel_m_ - InverseSensorModel::kClearlyInFrontSigma * sigma_m;
-    if (is_clearly_in_front) return model_.free_log_odds();  // most cells of a ray
+    if (is_clearly_in_front) return model_.free_log_odds();  // most voxels of a ray
     const double gap_m = std::max(0.0, std::abs(offset_m) - half_voxel_m_);
     return model_.log_odds(std::copysign(gap_m, offset_m), sigma_m);
   }

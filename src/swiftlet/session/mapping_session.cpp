@@ -188,7 +188,7 @@ Expected<SavedFile> MappingSession::read_back(const std::filesystem::path& path)
   std::error_code unreadable;  // then the size stays 0: it is only shown
   const auto bytes = std::filesystem::file_size(path, unreadable);
   return SavedFile{path.string(), unreadable ? 0 : bytes, map->block_count(), map->frames(),
-                   counted->cells};
+                   counted->voxels};
 }
 
 }  // namespace swiftlet

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "swiftlet/pipeline/mapper.hpp"
-#include "swiftlet/query/cell_counts.hpp"
+#include "swiftlet/query/voxel_counts.hpp"
 #include "swiftlet/session/latency.hpp"
 #include "swiftlet/source/frame_source.hpp"
 
@@ -22,7 +22,7 @@ struct SavedFile {
   std::uintmax_t bytes = 0;  ///< 0 if the system does not tell
   std::size_t blocks = 0;    ///< that it holds
   std::uint64_t frames = 0;  ///< that it has seen
-  CellCounts cells;          ///< of its blocks
+  VoxelCounts voxels;        ///< of its blocks
 };
 
 /// What a mapping run did.

@@ -20,14 +20,14 @@ nlohmann::json compare(const std::string& a, const std::string& b, const TempFol
 }
 
 // An OctoMap file of a real building, written by OctoMap itself.
-TEST(Compare, finds_an_octomap_equal_to_itself_and_unlike_one_of_other_cells) {
+TEST(Compare, finds_an_octomap_equal_to_itself_and_unlike_one_of_other_voxels) {
   const auto octomaps = recorded_folder("octomap");
   SWIFTLET_NEEDS_RECORDING(octomaps);
   const TempFolder folder;
   const std::string building = std::filesystem::absolute(octomaps / "geb079.bt").string();
   const auto same = compare(building, building, folder);
-  EXPECT_EQ(same.at("cells"), 1136432);
-  EXPECT_EQ(same.at("same"), same.at("cells"));
+  EXPECT_EQ(same.at("voxels"), 1136432);
+  EXPECT_EQ(same.at("same"), same.at("voxels"));
 
   const std::string sample =
       std::filesystem::absolute(octomaps / "octomap_tutor_sample.bt").string();
@@ -49,10 +49,10 @@ TEST(Compare, finds_a_map_and_its_export_equal_and_counts_what_differs) {
     return;
   }
   const auto same = compare("all.swl", "all.bt", folder);
-  EXPECT_GT(same.at("cells"), 100);
-  EXPECT_EQ(same.at("same"), same.at("cells"));
+  EXPECT_GT(same.at("voxels"), 100);
+  EXPECT_EQ(same.at("same"), same.at("voxels"));
   const auto fewer = compare("one.swl", "all.bt", folder);
-  EXPECT_LT(fewer.at("same"), fewer.at("cells"));
+  EXPECT_LT(fewer.at("same"), fewer.at("voxels"));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 struct Recording {
   const char* name;
-  const char* voxel;  ///< small enough that a table's things are more than one cell
+  const char* voxel;  ///< small enough that a table's things are more than one voxel
   const char* downsample;
   friend std::ostream& operator<<(std::ostream& out, const Recording& r) { return out << r.name; }
 };
@@ -41,8 +41,8 @@ TEST_P(RecordedFlight, loses_no_frame_and_gives_the_same_map_bits_twice) {
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const auto summary = nlohmann::json::parse(ended.out);
     EXPECT_EQ(summary.at("dropped"), nlohmann::json::object());
-    EXPECT_GT(summary.at("cells").at("occupied"), 100);
-    EXPECT_GT(summary.at("cells").at("free"), 100);
+    EXPECT_GT(summary.at("voxels").at("occupied"), 100);
+    EXPECT_GT(summary.at("voxels").at("free"), 100);
   }
   EXPECT_EQ(blocks_of(folder / "a.swl"), blocks_of(folder / "b.swl"));
 }

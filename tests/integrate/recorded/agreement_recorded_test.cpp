@@ -34,8 +34,8 @@ void check_room(double voxel_m) {
   test::expect_agreement(agreement);
 }
 
-TEST(Room, agrees_with_rays_in_cells_of_20_cm) { check_room(0.2); }
-TEST(Room, agrees_with_rays_in_cells_of_5_cm) { check_room(0.05); }
+TEST(Room, agrees_with_rays_in_voxels_of_20_cm) { check_room(0.2); }
+TEST(Room, agrees_with_rays_in_voxels_of_5_cm) { check_room(0.05); }
 
 }  // namespace
 }  // namespace swiftlet

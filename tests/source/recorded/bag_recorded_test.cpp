@@ -181,7 +181,7 @@ TEST_F(Bags, of_two_devices_join_into_the_same_map_as_the_one_of_both) {
   const auto joined =
       test::map_bits("bag:" + bag("d435_only_v2.53.1.bag") + "," + bag("t265_only_v2.53.1.bag"));
   EXPECT_EQ(both.frames, 10U);
-  EXPECT_GT(both.known_cells, 500U);
+  EXPECT_GT(both.known_voxels, 500U);
   EXPECT_EQ(both, joined);
   EXPECT_EQ(both, test::map_bits("bag:" + bag("pipeline_recorded_v2.53.1.bag")));
   EXPECT_EQ(both, test::map_bits("bag:" + bag("d435_t265_v2.57.2.bag")));

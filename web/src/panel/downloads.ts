@@ -5,7 +5,7 @@ import {occupiedAsPly} from '../state/ply';
 import type {World} from '../state/world';
 import {download, element, grouped} from './dom';
 
-/// What of the map can be taken home: the map file, which the server writes, and the cells that the page holds.
+/// What of the map can be taken home: the map file, which the server writes, and the voxels that the page holds.
 export class Downloads {
   #dialog = element<HTMLDialogElement>('downloads');
   #note = element('download-note');
@@ -21,7 +21,7 @@ export class Downloads {
   open(): void {
     const {occupied, blocks} = this.world.digest;
     element('swl-size').textContent = `${grouped(blocks)} blocks`;
-    element('ply-size').textContent = `${grouped(occupied)} cells`;
+    element('ply-size').textContent = `${grouped(occupied)} voxels`;
     this.#tell('');
     this.#dialog.showModal();
   }

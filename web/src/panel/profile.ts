@@ -5,7 +5,7 @@ import {opticalAxisProfile} from '../state/walk';
 import type {World} from '../state/world';
 import {css, element, sharp} from './dom';
 
-/// The byte of each cell along the optical axis, against the distance from the camera.
+/// The byte of each voxel along the optical axis, against the distance from the camera.
 export function drawProfile(world: World): void {
   const target = sharp(element<HTMLCanvasElement>('profile'));
   if (!target) return;

@@ -7,9 +7,9 @@ import type {Vec3} from '../wire/messages';
 import {css, element, sharp} from './dom';
 
 interface Fit {
-  scale: number; // px per cell
-  left: number; // cell y at the left edge: y points left
-  top: number; // cell x at the upper edge: x points up
+  scale: number; // px per voxel
+  left: number; // voxel y at the left edge: y points left
+  top: number; // voxel x at the upper edge: x points up
 }
 
 /// One layer from above, x up and y left, with the thesis's colours: occupied blue, free yellow, unknown white.
@@ -17,7 +17,7 @@ export class Slice {
   z_m = 1.2;
   followsCamera = true;
   onMove: (z_m: number) => void = () => {};
-  onPoint: (cell: Vec3 | null, isKept: boolean) => void = () => {};
+  onPoint: (voxel: Vec3 | null, isKept: boolean) => void = () => {};
   #canvas = element<HTMLCanvasElement>('slice');
   #rail = element<HTMLCanvasElement>('rail');
   #fit: Fit | null = null;
@@ -43,9 +43,9 @@ export class Slice {
       event.preventDefault();
       this.moveBy(layers);
     });
-    this.#canvas.addEventListener('pointermove', (event) => this.onPoint(this.#cellAt(event), false));
+    this.#canvas.addEventListener('pointermove', (event) => this.onPoint(this.#voxelAt(event), false));
     this.#canvas.addEventListener('pointerleave', () => this.onPoint(null, false));
-    this.#canvas.addEventListener('click', (event) => this.onPoint(this.#cellAt(event), true));
+    this.#canvas.addEventListener('click', (event) => this.onPoint(this.#voxelAt(event), true));
   }
 
   moveTo(z_m: number, byHand: boolean): void {
@@ -70,7 +70,7 @@ export class Slice {
   get #voxel_m(): number {
     return this.world.hello?.voxel_m ?? 0.1;
   }
-  /// First layer with an occupied cell, and the one behind the last.
+  /// First layer with an occupied voxel, and the one behind the last.
   #layers(): [number, number] {
     const layers = [...this.world.layers].filter(([, n]) => n > 0).map(([z]) => z);
     return layers.length > 0 ? [Math.min(...layers), Math.max(...layers) + 1] : [0, 25];
@@ -93,15 +93,15 @@ export class Slice {
     });
     this.#fit = null;
     if (lowX > highX) return;
-    const [cellsX, cellsY] = [highX - lowX, highY - lowY];
-    const scale = Math.min(width / cellsY, height / cellsX);
+    const [voxelsX, voxelsY] = [highX - lowX, highY - lowY];
+    const scale = Math.min(width / voxelsY, height / voxelsX);
     this.#fit = {
       scale,
-      left: highY + (width / scale - cellsY) / 2,
-      top: highX + (height / scale - cellsX) / 2,
+      left: highY + (width / scale - voxelsY) / 2,
+      top: highX + (height / scale - voxelsX) / 2,
     };
-    if (!this.#image || this.#image.width !== cellsY || this.#image.height !== cellsX) {
-      this.#image = new ImageData(cellsY, cellsX);
+    if (!this.#image || this.#image.width !== voxelsY || this.#image.height !== voxelsX) {
+      this.#image = new ImageData(voxelsY, voxelsX);
     }
     const pixels = new Uint32Array(this.#image.data.buffer);
     pixels.fill(0);
@@ -109,19 +109,19 @@ export class Slice {
     for (const block of blocks) {
       for (let y = 0; y < 8; ++y) {
         for (let x = 0; x < 8; ++x) {
-          const byte = block.cells[x | (y << 3) | ((z & 7) << 6)]!;
+          const byte = block.voxels[x | (y << 3) | ((z & 7) << 6)]!;
           const row = highX - 1 - (8 * block.x + x);
-          pixels[row * cellsY + (highY - 1 - (8 * block.y + y))] = colours[this.world.stateOf(byte)];
+          pixels[row * voxelsY + (highY - 1 - (8 * block.y + y))] = colours[this.world.stateOf(byte)];
         }
       }
     }
-    const sheet = new OffscreenCanvas(cellsY, cellsX);
+    const sheet = new OffscreenCanvas(voxelsY, voxelsX);
     sheet.getContext('2d')!.putImageData(this.#image, 0, 0);
     g.imageSmoothingEnabled = false;
     const [x0, y0] = this.#toPixel([highX, highY]);
     g.fillStyle = css('--unknown');
     g.fillRect(0, 0, width, height);
-    g.drawImage(sheet, x0, y0, cellsY * scale, cellsX * scale);
+    g.drawImage(sheet, x0, y0, voxelsY * scale, voxelsX * scale);
     this.#drawMarks(g);
   }
 
@@ -185,7 +185,7 @@ export class Slice {
     const fit = this.#fit!;
     return [(fit.left - y) * fit.scale, (fit.top - x) * fit.scale];
   }
-  #cellAt(event: MouseEvent): Vec3 | null {
+  #voxelAt(event: MouseEvent): Vec3 | null {
     if (!this.#fit) return null;
     const box = this.#canvas.getBoundingClientRect();
     return [

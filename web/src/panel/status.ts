@@ -66,7 +66,7 @@ export class StatusPanel {
     element('fps').textContent = rate === null ? '–' : rate.toFixed(rate < 10 ? 1 : 0);
     const latency = median(world.frames.slice(-60).map((f) => f.stages_ms.reduce((a, b) => a + b, 0)));
     element('latency').textContent = latency === null ? '–' : latency.toFixed(1);
-    element('cells').textContent = grouped(world.digest.occupied);
+    element('voxels').textContent = grouped(world.digest.occupied);
     element('frames').textContent = world.status ? grouped(world.status.frame) : '–';
     if (now_ms - this.#bytesAt_ms > 1000) {
       const perSecond = (link.bytes - this.#bytes) / ((now_ms - this.#bytesAt_ms) / 1000);
@@ -74,7 +74,7 @@ export class StatusPanel {
       this.#bytes = link.bytes;
       this.#bytesAt_ms = now_ms;
     }
-    const source = world.hello ? `${world.hello.source} · ${(100 * world.hello.voxel_m).toFixed(0)} cm cells` : '';
+    const source = world.hello ? `${world.hello.source} · ${(100 * world.hello.voxel_m).toFixed(0)} cm voxels` : '';
     if (element('source').textContent !== source) element('source').textContent = source;
   }
 
@@ -117,7 +117,7 @@ export class StatusPanel {
       waiting: this.#isPoseLost(now_ms)
         ? ['Waiting for the first pose', 'Images come, but none with a pose that can be trusted. Nothing has been mapped yet.']
         : ['Waiting for the first frame', 'The mapper is ready. Nothing has been mapped yet.'],
-      saved: ['An empty map', 'This map file holds no cells.'],
+      saved: ['An empty map', 'This map file holds no voxels.'],
       over: ['The flight is over', 'Nothing was mapped.'],
     };
     const text = isEmpty ? texts[state] : undefined;

@@ -7,7 +7,7 @@ import {walk} from '../state/walk';
 import type {World} from '../state/world';
 import type {Vec3} from '../wire/messages';
 import {Cameras, type CameraMode} from './cameras';
-import {CellLayer} from './cell_layer';
+import {VoxelLayer} from './voxel_layer';
 import type {Colouring} from './colours';
 import {LineLayer} from './line_layer';
 import {frustumCorners, makeVehicle, place} from './vehicle';
@@ -31,12 +31,12 @@ const kFieldOfView_m = 1; // as in the thesis
 export class Viewer {
   readonly renderer: THREE.WebGLRenderer;
   readonly cameras: Cameras;
-  readonly occupied: CellLayer;
-  readonly free: CellLayer;
-  readonly unknown: CellLayer;
+  readonly occupied: VoxelLayer;
+  readonly free: VoxelLayer;
+  readonly unknown: VoxelLayer;
   readonly show = {free: false, unknown: false, boxes: true, cut: true};
   sliceZ_m = 1.2;
-  picked: Vec3 | null = null; // cell
+  picked: Vec3 | null = null; // voxel
   frames = 0;
   #scene = new THREE.Scene();
   #lines = new LineLayer();
@@ -57,9 +57,9 @@ export class Viewer {
     this.cameras = new Cameras(canvas, () => this.refresh());
     const from = (): number => world.hello?.occupied_from ?? 180;
     const below = (): number => world.hello?.free_below ?? 107;
-    this.occupied = new CellLayer((byte) => byte >= from(), 1, 0.34);
-    this.free = new CellLayer((byte) => byte < below(), 0.16, 0);
-    this.unknown = new CellLayer((byte) => byte >= below() && byte < from(), 0.12, 0);
+    this.occupied = new VoxelLayer((byte) => byte >= from(), 1, 0.34);
+    this.free = new VoxelLayer((byte) => byte < below(), 0.16, 0);
+    this.unknown = new VoxelLayer((byte) => byte >= below() && byte < from(), 0.12, 0);
     this.#plane = new THREE.Mesh(
       new THREE.PlaneGeometry(1, 1),
       new THREE.MeshBasicMaterial({transparent: true, opacity: 0.07, depthWrite: false, side: THREE.DoubleSide}));
@@ -154,7 +154,7 @@ export class Viewer {
     return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
   }
 
-  /// The first occupied cell under a point of the canvas [px].
+  /// The first occupied voxel under a point of the canvas [px].
   pick(x: number, y: number): Vec3 | null {
     const voxel_m = this.world.hello?.voxel_m;
     if (!voxel_m) return null;
@@ -163,10 +163,10 @@ export class Viewer {
     ray.setFromCamera(ndc, this.cameras.camera);
     const cut = this.show.cut ? this.sliceZ_m : Infinity;
     let hit: Vec3 | null = null;
-    walk(ray.ray.origin.toArray() as Vec3, ray.ray.direction.toArray() as Vec3, voxel_m, 80, ({cell}) => {
-      if ((cell[2] + 0.5) * voxel_m > cut) return false;
-      if (this.world.stateOf(this.world.cell(...cell)) !== 'occupied') return false;
-      hit = cell;
+    walk(ray.ray.origin.toArray() as Vec3, ray.ray.direction.toArray() as Vec3, voxel_m, 80, ({voxel}) => {
+      if ((voxel[2] + 0.5) * voxel_m > cut) return false;
+      if (this.world.stateOf(this.world.voxel(...voxel)) !== 'occupied') return false;
+      hit = voxel;
       return true;
     });
     return hit;
@@ -209,7 +209,7 @@ export class Viewer {
     return scaled;
   }
 
-  /// Puts everything but the cells in its place.
+  /// Puts everything but the voxels in its place.
   #arrange(): void {
     const {world, show} = this;
     const cut = show.cut ? this.sliceZ_m : Infinity;

@@ -5,28 +5,28 @@ import type {Vec3} from '../wire/messages';
 import type {World} from './world';
 
 export interface Step {
-  cell: Vec3;
-  distance_m: number; // where the ray enters the cell
+  voxel: Vec3;
+  distance_m: number; // where the ray enters the voxel
 }
 
-/// Visits the cells that a ray crosses, near to far (Amanatides & Woo 1987), until `visit` says stop.
+/// Visits the voxels that a ray crosses, near to far (Amanatides & Woo 1987), until `visit` says stop.
 export function walk(
   origin: Vec3, direction: Vec3, voxel_m: number, length_m: number, visit: (step: Step) => boolean,
 ): void {
   const norm = Math.hypot(...direction);
   const d = direction.map((v) => v / norm) as Vec3;
-  const cell = origin.map((v) => Math.floor(v / voxel_m)) as Vec3;
+  const voxel = origin.map((v) => Math.floor(v / voxel_m)) as Vec3;
   const step = d.map(Math.sign) as Vec3;
   const next = d.map((v, i) =>
-    v === 0 ? Infinity : ((cell[i]! + (v > 0 ? 1 : 0)) * voxel_m - origin[i]!) / v) as Vec3;
+    v === 0 ? Infinity : ((voxel[i]! + (v > 0 ? 1 : 0)) * voxel_m - origin[i]!) / v) as Vec3;
   const delta = d.map((v) => (v === 0 ? Infinity : Math.abs(voxel_m / v))) as Vec3;
   let at = 0;
   while (at <= length_m) {
-    if (visit({cell: [...cell], distance_m: at})) return;
+    if (visit({voxel: [...voxel], distance_m: at})) return;
     const axis = next[0] <= next[1] ? (next[0] <= next[2] ? 0 : 2) : next[1] <= next[2] ? 1 : 2;
     at = next[axis];
     next[axis] += delta[axis];
-    cell[axis] += step[axis];
+    voxel[axis] += step[axis];
   }
 }
 
@@ -44,13 +44,13 @@ export interface ProfilePoint {
   byte: number;
 }
 
-/// The bytes of the cells along the optical axis.
+/// The bytes of the voxels along the optical axis.
 export function opticalAxisProfile(world: World, length_m: number): ProfilePoint[] {
   const frame = world.lastFrame;
   if (!frame || !world.hello) return [];
   const points: ProfilePoint[] = [];
   walk(frame.position, rotate(frame.rotation, [0, 0, 1]), world.hello.voxel_m, length_m, (step) => {
-    points.push({distance_m: step.distance_m, byte: world.cell(...step.cell)});
+    points.push({distance_m: step.distance_m, byte: world.voxel(...step.voxel)});
     return false;
   });
   return points;

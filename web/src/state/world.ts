@@ -4,21 +4,21 @@
 import {blockHash} from '../wire/hash';
 import type {Digest, FrameRecord, Hello, ServerMessage, StatusMessage, Vec3} from '../wire/messages';
 
-export const kUnknownCell = 127;
+export const kUnknownVoxel = 127;
 export const kEdge = 8;
 
 export interface Block {
   readonly x: number;
   readonly y: number;
   readonly z: number;
-  cells: Uint8Array; // 512, x fastest, then y, then z
+  voxels: Uint8Array; // 512, x fastest, then y, then z
   occupied: number;
   free: number;
   hashA: number;
   hashB: number;
 }
 
-export type CellState = 'free' | 'unknown' | 'occupied';
+export type VoxelState = 'free' | 'unknown' | 'occupied';
 
 const kHalf = 65536; // blocks along each axis on either side of the origin
 const kFramesKept = 1800;
@@ -40,7 +40,7 @@ export class World {
   revision = 0; // counts changes of blocks
   readonly blocks = new Map<number, Block>();
   readonly changed = new Set<number>(); // keys, for whoever draws; they clear it
-  layers = new Map<number, number>(); // occupied cells by layer (cell index z)
+  layers = new Map<number, number>(); // occupied voxels by layer (voxel index z)
 
   start(hello: Hello): void {
     const isSame = this.hello?.world === hello.world && this.hello.source === hello.source;
@@ -58,7 +58,7 @@ export class World {
     switch (message.type) {
       case 'blocks':
         if (message.clearsFirst) this.clear();
-        for (const block of message.blocks) this.#put(block.x, block.y, block.z, block.cells);
+        for (const block of message.blocks) this.#put(block.x, block.y, block.z, block.voxels);
         ++this.revision;
         break;
       case 'frames':
@@ -85,44 +85,44 @@ export class World {
     ++this.revision;
   }
 
-  /// The cell's byte; kUnknownCell where nothing is known.
-  cell(x: number, y: number, z: number): number {
+  /// The voxel's byte; kUnknownVoxel where nothing is known.
+  voxel(x: number, y: number, z: number): number {
     const block = this.blocks.get(keyOf(x >> 3, y >> 3, z >> 3));
-    return block ? block.cells[(x & 7) | ((y & 7) << 3) | ((z & 7) << 6)]! : kUnknownCell;
+    return block ? block.voxels[(x & 7) | ((y & 7) << 3) | ((z & 7) << 6)]! : kUnknownVoxel;
   }
 
-  stateOf(byte: number): CellState {
-    if (!this.hello || byte >= this.hello.occupied_from) return byte === kUnknownCell ? 'unknown' : 'occupied';
+  stateOf(byte: number): VoxelState {
+    if (!this.hello || byte >= this.hello.occupied_from) return byte === kUnknownVoxel ? 'unknown' : 'occupied';
     return byte < this.hello.free_below ? 'free' : 'unknown';
   }
 
   probability(byte: number): number {
-    return 1 / (1 + Math.exp(-(byte - kUnknownCell) * (this.hello?.logodds_per_step ?? 0.04)));
+    return 1 / (1 + Math.exp(-(byte - kUnknownVoxel) * (this.hello?.logodds_per_step ?? 0.04)));
   }
 
   get lastFrame(): FrameRecord | null {
     return this.frames[this.frames.length - 1] ?? null;
   }
 
-  #put(x: number, y: number, z: number, cells: Uint8Array | null): void {
+  #put(x: number, y: number, z: number, voxels: Uint8Array | null): void {
     const key = keyOf(x, y, z);
     const old = this.blocks.get(key);
     if (old) {
       this.#count(old, -1);
-      if (!cells) this.blocks.delete(key);
+      if (!voxels) this.blocks.delete(key);
     }
     this.changed.add(key);
-    if (!cells) return;
-    const words = new Uint32Array(cells.buffer, cells.byteOffset, cells.length / 4);
+    if (!voxels) return;
+    const words = new Uint32Array(voxels.buffer, voxels.byteOffset, voxels.length / 4);
     const block: Block = {
-      x, y, z, cells, occupied: 0, free: 0,
+      x, y, z, voxels, occupied: 0, free: 0,
       hashA: blockHash(x, y, z, words, 0),
       hashB: blockHash(x, y, z, words, 1),
     };
     const occupiedFrom = this.hello?.occupied_from ?? 180;
     const freeBelow = this.hello?.free_below ?? 107;
-    for (let i = 0; i < cells.length; ++i) {
-      const byte = cells[i]!;
+    for (let i = 0; i < voxels.length; ++i) {
+      const byte = voxels[i]!;
       if (byte >= occupiedFrom) ++block.occupied;
       else if (byte < freeBelow) ++block.free;
     }
@@ -141,7 +141,7 @@ export class World {
     const occupiedFrom = this.hello?.occupied_from ?? 180;
     for (let z = 0; z < kEdge; ++z) {
       let n = 0;
-      for (let i = 64 * z; i < 64 * (z + 1); ++i) n += block.cells[i]! >= occupiedFrom ? 1 : 0;
+      for (let i = 64 * z; i < 64 * (z + 1); ++i) n += block.voxels[i]! >= occupiedFrom ? 1 : 0;
       if (n > 0) this.layers.set(8 * block.z + z, (this.layers.get(8 * block.z + z) ?? 0) + sign * n);
     }
   }

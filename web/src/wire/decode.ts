@@ -8,7 +8,7 @@ import {flightStates, type BlockUpdate, type FrameRecord, type Hello, type Serve
 export class WireError extends Error {}
 
 const kVersion = 1;
-const kBlockCells = 512;
+const kBlockVoxels = 512;
 const kFrameRecord_bytes = 112;
 
 /// Reads a binary message. Throws WireError for what is no message of this version; a type that it does not know is
@@ -60,18 +60,18 @@ function readBlocks(view: DataView): {frame: number; blocks: BlockUpdate[]} {
   const [baseX, baseY, baseZ] = readIndex(view, 20);
   const known = view.getUint16(32, true);
   const count = known + view.getUint16(34, true);
-  const plainSize = 6 * count + kBlockCells * known;
+  const plainSize = 6 * count + kBlockVoxels * known;
   const plain = decompress(new Uint8Array(view.buffer, view.byteOffset + 36), new Uint8Array(plainSize));
   if (plain.length !== plainSize) throw new WireError(`${plain.length} bytes of blocks instead of ${plainSize}`);
   const places = new DataView(plain.buffer, plain.byteOffset, plain.byteLength);
   const blocks: BlockUpdate[] = [];
   for (let i = 0; i < count; ++i) {
-    const start = 6 * count + kBlockCells * i;
+    const start = 6 * count + kBlockVoxels * i;
     blocks.push({
       x: baseX + places.getInt16(6 * i, true),
       y: baseY + places.getInt16(6 * i + 2, true),
       z: baseZ + places.getInt16(6 * i + 4, true),
-      cells: i < known ? plain.slice(start, start + kBlockCells) : null,
+      voxels: i < known ? plain.slice(start, start + kBlockVoxels) : null,
     });
   }
   return {frame: Number(view.getBigUint64(12, true)), blocks};
@@ -105,7 +105,7 @@ function readFrame(view: DataView, at: number): FrameRecord {
     rotation: [f32(40), f32(44), f32(48), f32(52)],
     stages_ms: [f32(56), f32(60), f32(64), f32(68)],
     readings: u32(72),
-    cells: u32(76),
+    voxels: u32(76),
     blocksLeft: u32(80),
     width: view.getUint16(at + 84, true),
     height: view.getUint16(at + 86, true),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-/// MurmurHash3_x86_32 of x, y, z (little-endian int32) and the 512 cells of a block, as the server computes it.
+/// MurmurHash3_x86_32 of x, y, z (little-endian int32) and the 512 voxels of a block, as the server computes it.
 export function blockHash(x: number, y: number, z: number, words: Uint32Array, seed: number): number {
   let h = seed;
   const add = (word: number): void => {

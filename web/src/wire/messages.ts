@@ -33,7 +33,7 @@ export interface BlockUpdate {
   x: number;
   y: number;
   z: number;
-  cells: Uint8Array | null; // null: nothing is known there any more
+  voxels: Uint8Array | null; // null: nothing is known there any more
 }
 
 export interface Blocks extends Header {
@@ -55,7 +55,7 @@ export interface FrameRecord {
   rotation: [number, number, number, number]; // camera to world: x, y, z, w
   stages_ms: number[];
   readings: number;
-  cells: number;
+  voxels: number;
   blocksLeft: number;
   width: number;
   height: number;

@@ -12,7 +12,7 @@ import {join} from 'node:path';
 import {afterAll, beforeAll, describe, expect, it} from 'vitest';
 import WebSocket from 'ws';
 
-import {cellsOf, RunningProgram} from './program';
+import {voxelsOf, RunningProgram} from './program';
 
 const folder = mkdtempSync(join(tmpdir(), 'swiftlet-fox-'));
 const map = join(folder, 'flat.swl');
@@ -61,7 +61,7 @@ async function listen(subprotocol: string, isEnough: (newest: Map<string, Messag
 const kTopics = ['/map/occupied', '/map/window', '/vehicle', '/tf', '/camera/calibration', '/camera/depth', '/statistics'];
 
 describe.each(['foxglove.sdk.v1', 'foxglove.websocket.v1'])('a client that speaks %s', (subprotocol) => {
-  it('reads every channel, and counts the cells that the map file holds', async () => {
+  it('reads every channel, and counts the voxels that the map file holds', async () => {
     // The depth image comes while the flight goes on: the first client is in time for it.
     const needed = subprotocol === 'foxglove.sdk.v1' ? kTopics : kTopics.filter((t) => t !== '/camera/depth');
     const first = await listen(subprotocol, (newest) => needed.every((topic) => newest.has(topic)));
@@ -71,10 +71,10 @@ describe.each(['foxglove.sdk.v1', 'foxglove.websocket.v1'])('a client that speak
     const newest = await listen(subprotocol, (n) => needed.every((t) => t === '/camera/depth' || n.has(t)));
 
     const cloud = newest.get('/map/occupied')!;
-    const cells = cellsOf(map);
+    const voxels = voxelsOf(map);
     expect(cloud.frame_id).toBe('map');
     expect(cloud.fields.map((f: Fields) => [f.name, f.offset, f.type])).toEqual([['x', 0, 7], ['y', 4, 7], ['z', 8, 7], ['log_odds', 12, 1]]);
-    expect(cloud.data.length / cloud.point_stride).toBe(cells.occupied);
+    expect(cloud.data.length / cloud.point_stride).toBe(voxels.occupied);
     expect(cloud.data[12]).toBeGreaterThanOrEqual(180);
 
     const grid = newest.get('/map/window')!;
@@ -82,10 +82,10 @@ describe.each(['foxglove.sdk.v1', 'foxglove.websocket.v1'])('a client that speak
     expect(grid.slice_stride).toBe(grid.row_stride * grid.row_count);
     expect(grid.row_stride).toBe(grid.cell_stride * grid.column_count);
     expect(grid.cell_size).toEqual({x: 0.1, y: 0.1, z: 0.1});
-    // Each point of the cloud inside the grid is an occupied cell there, at its place.
+    // Each point of the cloud inside the grid is an occupied voxel there, at its place.
     const view = new DataView(cloud.data.buffer, cloud.data.byteOffset, cloud.data.byteLength);
     let inside = 0;
-    for (let i = 0; i < cells.occupied; ++i) {
+    for (let i = 0; i < voxels.occupied; ++i) {
       const at = ['x', 'y', 'z'].map((axis, k) =>
         Math.round((view.getFloat32(i * 13 + 4 * k, true) - grid.pose.position[axis]) / 0.1 - 0.5));
       const [x, y, z] = at as [number, number, number];
@@ -119,7 +119,7 @@ describe.each(['foxglove.sdk.v1', 'foxglove.websocket.v1'])('a client that speak
       expect(Math.max(...new Uint16Array(depth!.data.slice().buffer).slice(0, 50_000))).toBeGreaterThan(300); // [mm]
     }
     const statistics = newest.get('/statistics')!;
-    expect(statistics).toMatchObject({occupied: cells.occupied, free: cells.free});
+    expect(statistics).toMatchObject({occupied: voxels.occupied, free: voxels.free});
     expect(statistics.verdicts.integrated).toBe(statistics.frame_count);
   });
 });

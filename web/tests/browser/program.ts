@@ -48,11 +48,11 @@ export class RunningProgram {
 }
 
 /// What `swiftlet info` counts in a map file.
-export function cellsOf(map: string): {occupied: number; free: number} {
-  return JSON.parse(execFileSync(program, ['info', map, '--json']).toString()).cells;
+export function voxelsOf(map: string): {occupied: number; free: number} {
+  return JSON.parse(execFileSync(program, ['info', map, '--json']).toString()).voxels;
 }
 
-/// What `swiftlet compare` counts: free and occupied cells of both, and how many of them are the same.
-export function compared(first: string, second: string): {cells: number; same: number} {
+/// What `swiftlet compare` counts: free and occupied voxels of both, and how many of them are the same.
+export function compared(first: string, second: string): {voxels: number; same: number} {
   return JSON.parse(execFileSync(program, ['compare', first, second, '--json']).toString());
 }

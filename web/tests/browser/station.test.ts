@@ -10,7 +10,7 @@ import type {Browser, Page} from 'playwright-core';
 import {afterAll, afterEach, beforeAll, expect, it} from 'vitest';
 
 import {openBrowser, until as untilOn} from './browser';
-import {cellsOf, compared, RunningProgram} from './program';
+import {voxelsOf, compared, RunningProgram} from './program';
 
 const folder = mkdtempSync(join(tmpdir(), 'swiftlet-web-'));
 const map = join(folder, 'flat.swl');
@@ -64,7 +64,7 @@ afterAll(async () => {
   rmSync(folder, {recursive: true, force: true});
 });
 
-it('shows a flight, cell for cell, at 1 Mbit/s and through lost packets, and fetches nothing from elsewhere', async () => {
+it('shows a flight, voxel for voxel, at 1 Mbit/s and through lost packets, and fetches nothing from elsewhere', async () => {
   const program = await start(flight);
   await open(program.url);
   await confirmed(5);
@@ -80,7 +80,7 @@ it('shows a flight, cell for cell, at 1 Mbit/s and through lost packets, and fet
   const passed_s = (performance.now() - start_ms) / 1000;
   expect(live.bytes - before).toBeLessThan(125_000 * (passed_s + 0.1) + 40_000);
   expect(live.gaps).toBeGreaterThan(0);
-  expect(live.digest).toMatchObject(pick(cellsOf(map)));
+  expect(live.digest).toMatchObject(pick(voxelsOf(map)));
   expect(live.digest.occupied).toBeGreaterThan(5000);
   expect(live.track).toBeGreaterThan(1);  // how many depends on the frames that a busy machine loses
   await until(() => window.swiftlet.viewer.occupied.count === window.swiftlet.world.digest.occupied, 0);
@@ -99,14 +99,14 @@ it('shows a flight, cell for cell, at 1 Mbit/s and through lost packets, and fet
   await page.locator('#state', {hasText: 'Saved map'}).waitFor();
 });
 
-function pick(cells: {occupied: number; free: number}): {occupied: number; free: number} {
-  return {occupied: cells.occupied, free: cells.free};
+function pick(voxels: {occupied: number; free: number}): {occupied: number; free: number} {
+  return {occupied: voxels.occupied, free: voxels.free};
 }
 
 it('slice, height and inspector tell what the map holds', async () => {
   const program = await start(['view', map, '--listen', '127.0.0.1:0']);
   await open(program.url);
-  await page.setViewportSize({width: 1100, height: 1100}); // a slice of several pixels a cell
+  await page.setViewportSize({width: 1100, height: 1100}); // a slice of several pixels a voxel
   await confirmed(0);
   await until(() => window.swiftlet.viewer.occupied.count > 0, 0);
 
@@ -122,7 +122,7 @@ it('slice, height and inspector tell what the map holds', async () => {
   await page.locator('#rail').press('ArrowDown');
   expect(await page.evaluate(() => window.swiftlet.slice.z_m)).toBeCloseTo(z_m - 0.1, 6);
 
-  // The slice's colours are the cells of that layer: no cell is lost or made up.
+  // The slice's colours are the voxels of that layer: no voxel is lost or made up.
   const painted = await page.evaluate(() => {
     const {world, slice} = window.swiftlet;
     const sheet = document.querySelector<HTMLCanvasElement>('#slice')!;
@@ -130,19 +130,19 @@ it('slice, height and inspector tell what the map holds', async () => {
     const box = sheet.getBoundingClientRect();
     slice.draw();
     const counts = {asked: 0, wrong: 0, occupied: 0};
-    const cellAt = (x: number, y: number): [number, number, number] | null => {
-      let cell: [number, number, number] | null = null;
+    const voxelAt = (x: number, y: number): [number, number, number] | null => {
+      let voxel: [number, number, number] | null = null;
       const keep = slice.onPoint;
-      slice.onPoint = (c) => (cell = c);
+      slice.onPoint = (c) => (voxel = c);
       sheet.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + x, clientY: box.top + y}));
       slice.onPoint = keep;
-      return cell;
+      return voxel;
     };
     for (let x = 4; x < sheet.clientWidth - 4; x += 5) {
       for (let y = 4; y < sheet.clientHeight - 4; y += 5) {
-        const cells = [0, 0.5, 0.99].map((d) => cellAt(x + d, y + d));
-        if (!cells[1] || cells.some((c) => String(c) !== String(cells[1]))) continue; // a pixel of two cells
-        const state = world.stateOf(world.cell(...cells[1]));
+        const voxels = [0, 0.5, 0.99].map((d) => voxelAt(x + d, y + d));
+        if (!voxels[1] || voxels.some((c) => String(c) !== String(voxels[1]))) continue; // a pixel of two voxels
+        const state = world.stateOf(world.voxel(...voxels[1]));
         const ratio = sheet.width / box.width;
         const [r, , b] = g.getImageData(Math.floor(x * ratio), Math.floor(y * ratio), 1, 1).data;
         const seen = b! > 180 && r! < 120 ? 'occupied' : b! < 120 ? 'free' : 'unknown';
@@ -157,7 +157,7 @@ it('slice, height and inspector tell what the map holds', async () => {
   expect(painted.occupied).toBeGreaterThan(5);
   expect(painted.wrong).toBe(0);
 
-  // The inspector, over the first occupied cell that a row of points in the 3-D view meets.
+  // The inspector, over the first occupied voxel that a row of points in the 3-D view meets.
   await page.keyboard.press('3');
   await page.waitForTimeout(1500);
   const canvas = (await page.locator('#view').boundingBox())!;
@@ -165,16 +165,16 @@ it('slice, height and inspector tell what the map holds', async () => {
   for (let x = 0.2; x < 0.7 && state !== 'occupied'; x += 0.04) {
     await page.mouse.move(canvas.x + canvas.width * x, canvas.y + canvas.height * 0.45);
     await page.waitForTimeout(60);
-    if (await page.locator('#cell').isVisible()) state = await page.locator('#cell-state').innerText();
+    if (await page.locator('#voxel').isVisible()) state = await page.locator('#voxel-state').innerText();
   }
   expect(state).toBe('occupied');
-  const cell = (await page.locator('#cell-index').innerText()).split(/\s+/).map(Number) as [number, number, number];
-  const byte = await page.evaluate((c) => window.swiftlet.world.cell(...c), cell);
-  expect(Number(await page.locator('#cell-byte').innerText())).toBe(byte);
+  const voxel = (await page.locator('#voxel-index').innerText()).split(/\s+/).map(Number) as [number, number, number];
+  const byte = await page.evaluate((c) => window.swiftlet.world.voxel(...c), voxel);
+  expect(Number(await page.locator('#voxel-byte').innerText())).toBe(byte);
   expect(byte).toBeGreaterThanOrEqual(180);
 });
 
-it('hands out the map file, which holds the same cells', async () => {
+it('hands out the map file, which holds the same voxels', async () => {
   const program = await start(['view', map, '--listen', '127.0.0.1:0', '--token', 'only-for-me']);
   await open(program.url);
   await confirmed(0);
@@ -184,21 +184,20 @@ it('hands out the map file, which holds the same cells', async () => {
   const got = join(folder, 'got.swl');
   await swl.saveAs(got);
   await page.locator('#downloads').waitFor({state: 'hidden'});
-  expect(pick(cellsOf(got))).toEqual(pick(cellsOf(map))); // blocks of unknown cells alone are left out
-  const {occupied, free} = cellsOf(map);
-  expect(compared(got, map)).toMatchObject({cells: occupied + free, same: occupied + free});
+  expect(pick(voxelsOf(got))).toEqual(pick(voxelsOf(map))); // blocks of unknown voxels alone are left out
+  const {occupied, free} = voxelsOf(map);
+  expect(compared(got, map)).toMatchObject({voxels: occupied + free, same: occupied + free});
   await page.keyboard.press('d');
   const [ply] = await Promise.all([page.waitForEvent('download'), page.click('#get-ply')]);
   const points = join(folder, 'got.ply');
   await ply.saveAs(points);
-  expect(readFileSync(points, 'latin1')).toContain(`element vertex ${cellsOf(map).occupied}\n`);
+  expect(readFileSync(points, 'latin1')).toContain(`element vertex ${voxelsOf(map).occupied}\n`);
 
   // Seen as it was downloaded, it has the same hash.
   const before = (await knowledge()).digest;
+  await page.close(); // or it would say that the link is lost
   await program.end();
-  faults.length = 0; // the link was lost
   const again = await start(['view', got, '--listen', '127.0.0.1:0']);
-  await page.close();
   await open(again.url);
   await confirmed(0);
   expect((await knowledge()).digest).toEqual(before);

@@ -32,11 +32,11 @@ describe('the golden files', () => {
   it('blocks', () => {
     const message = decode(bytes('blocks.bin')) as Blocks;
     expect(message).toMatchObject({type: 'blocks', sequence: 17, world: 3, clearsFirst: true, frame: 0});
-    expect(message.blocks.map(({x, y, z, cells}) => [x, y, z, cells?.length ?? null])).toEqual([
+    expect(message.blocks.map(({x, y, z, voxels}) => [x, y, z, voxels?.length ?? null])).toEqual([
       [-3, 2, 1, 512], [-2, 2, 1, 512], [5, 5, 5, null],
     ]);
-    expect([...message.blocks[0]!.cells!.slice(0, 5)]).toEqual([0, 0, 1, 1, 2]);
-    expect([...message.blocks[1]!.cells!.slice(-3)]).toEqual([5, 6, 6]);
+    expect([...message.blocks[0]!.voxels!.slice(0, 5)]).toEqual([0, 0, 1, 1, 2]);
+    expect([...message.blocks[1]!.voxels!.slice(-3)]).toEqual([5, 6, 6]);
   });
 
   it('frames', () => {
@@ -45,7 +45,7 @@ describe('the golden files', () => {
     expect(message.frames[0]).toEqual({
       stamp_ns: 1_700_000_000_123_456_789n, number: 42, verdict: 1, hasShifted: true, isLate: true, wasHidden: false,
       camera: 2, position: [1.25, -2.5, 999_999.875], rotation: [-0.5, 0.5, -0.5, 0.5],
-      stages_ms: [0.25, 0.5, 4, 0.125], readings: 400_000, cells: 12_345, blocksLeft: 3, width: 848, height: 480,
+      stages_ms: [0.25, 0.5, 4, 0.125], readings: 400_000, voxels: 12_345, blocksLeft: 3, width: 848, height: 480,
       fx: 425.5, fy: 426.5, cx: 423.25, cy: 239.75, lost: 9,
     });
     expect(message.frames[1]).toMatchObject({number: 43, verdict: 0, fx: 0, lost: 0});

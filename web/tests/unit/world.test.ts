@@ -17,12 +17,12 @@ const hello: Hello = {
 };
 const frame = (number: number, position: Vec3 = [0, 0, 0]): FrameRecord => ({
   stamp_ns: BigInt(number), number, verdict: 0, hasShifted: false, isLate: false, wasHidden: false, camera: 0, position,
-  rotation: [0, 0, 0, 1], stages_ms: [1, 1, 1, 1], readings: 1, cells: 1, blocksLeft: 0, width: 10, height: 10, fx: 5,
+  rotation: [0, 0, 0, 1], stages_ms: [1, 1, 1, 1], readings: 1, voxels: 1, blocksLeft: 0, width: 10, height: 10, fx: 5,
   fy: 5, cx: 4.5, cy: 4.5, lost: 0,
 });
 const blocks = (list: [number, number, number, number | null][], clearsFirst = false): Blocks => ({
   type: 'blocks', sequence: 0, world: 1, clearsFirst, frame: 1,
-  blocks: list.map(([x, y, z, byte]) => ({x, y, z, cells: byte === null ? null : new Uint8Array(512).fill(byte)})),
+  blocks: list.map(([x, y, z, byte]) => ({x, y, z, voxels: byte === null ? null : new Uint8Array(512).fill(byte)})),
 });
 function started(): World {
   const world = new World();
@@ -54,13 +54,13 @@ describe('World', () => {
     expect(world.changed.size).toBe(2); // whoever draws must take one away and put one in
   });
 
-  it('finds cells on either side of the origin', () => {
+  it('finds voxels on either side of the origin', () => {
     const world = started();
     const update = blocks([[-1, 0, 2, 127]]);
-    update.blocks[0]!.cells![7 | (3 << 3) | (5 << 6)] = 222;
+    update.blocks[0]!.voxels![7 | (3 << 3) | (5 << 6)] = 222;
     world.apply(update);
-    expect(world.cell(-1, 3, 21)).toBe(222);
-    expect(world.cell(0, 3, 21)).toBe(127);
+    expect(world.voxel(-1, 3, 21)).toBe(222);
+    expect(world.voxel(0, 3, 21)).toBe(127);
     expect(world.stateOf(222)).toBe('occupied');
     expect(world.stateOf(106)).toBe('free');
     expect(world.stateOf(150)).toBe('unknown');
@@ -87,7 +87,7 @@ describe('World', () => {
     expect(world.frames).toHaveLength(0);
   });
 
-  it('writes the occupied cells as PLY', async () => {
+  it('writes the occupied voxels as PLY', async () => {
     const world = started();
     world.apply(blocks([[0, 0, 0, 200], [1, 0, 0, 50]]));
     const text = await occupiedAsPly(world).text();
@@ -97,26 +97,26 @@ describe('World', () => {
 });
 
 describe('walk', () => {
-  it('visits the cells of a ray, face by face', () => {
+  it('visits the voxels of a ray, face by face', () => {
     let seed = 1;
     const random = (): number => ((seed = (seed * 48271) % 2147483647) / 2147483647) * 2 - 1;
     for (let i = 0; i < 200; ++i) {
       const origin: Vec3 = [random(), random(), random()];
       const direction: Vec3 = [random(), random(), random()];
-      const cells: Vec3[] = [];
-      walk(origin, direction, 0.1, 3, ({cell, distance_m}) => {
+      const voxels: Vec3[] = [];
+      walk(origin, direction, 0.1, 3, ({voxel, distance_m}) => {
         const norm = Math.hypot(...direction);
-        // The point just behind the entry lies in the cell.
-        const inside = cell.every((c, k) => {
+        // The point just behind the entry lies in the voxel.
+        const inside = voxel.every((c, k) => {
           const p = origin[k]! + ((distance_m + 1e-9) * direction[k]!) / norm;
           return p > c * 0.1 - 1e-6 && p < (c + 1) * 0.1 + 1e-6;
         });
         expect(inside).toBe(true);
-        cells.push(cell);
+        voxels.push(voxel);
         return false;
       });
-      for (let k = 1; k < cells.length; ++k) {
-        expect(cells[k]!.reduce((sum, v, a) => sum + Math.abs(v - cells[k - 1]![a]!), 0)).toBe(1);
+      for (let k = 1; k < voxels.length; ++k) {
+        expect(voxels[k]!.reduce((sum, v, a) => sum + Math.abs(v - voxels[k - 1]![a]!), 0)).toBe(1);
       }
     }
   });

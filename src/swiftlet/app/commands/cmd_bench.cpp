@@ -30,7 +30,7 @@ struct BenchOptions {
 };
 
 /// The setting of the thesis, its rule: one reading, the nearest, for 8 x 8 pixels (table 4.1).
-constexpr double kThesisCell_m = 0.2;
+constexpr double kThesisVoxel_m = 0.2;
 constexpr int kThesisDownsample = 8;
 
 /// What the measurements share; every parameter that counts is named, whatever the defaults are.
@@ -62,7 +62,7 @@ class Bench {
   Bench(const BenchOptions& options, const eval::Workload& workload)
       : options_(options), workload_(workload) {}
 
-  /// All subjects at one cell size.
+  /// All subjects at one voxel size.
   Expected<std::vector<eval::BenchRow>> at_full_resolution(double voxel_m) const {
     MapperConfig config = base();
     config.map.voxel_m = voxel_m;
@@ -77,7 +77,7 @@ class Bench {
     if (auto added = add(timed, "rays", config, eval::every_nth(10, workload_)); !added)
       return forward_error(std::move(added));
     add_octomap(timed, config);
-    tell(fmt::format("{}: cells of {} m", workload_.name, voxel_m));
+    tell(fmt::format("{}: voxels of {} m", workload_.name, voxel_m));
     eval::race(workload_, timed, shown_progress());
     return eval::rows_of(workload_, voxel_m, timed, model_note());
   }
@@ -85,7 +85,7 @@ class Bench {
   Expected<std::vector<eval::BenchRow>> at_thesis_setting() const {
     MapperConfig config = base();
     config.integrate.model = kThesisModel;
-    config.map.voxel_m = kThesisCell_m;
+    config.map.voxel_m = kThesisVoxel_m;
     config.depth.downsample = kThesisDownsample;
     std::vector<eval::TimedSubject> timed;
     for (const char* name : {"projective", "rays"}) {
@@ -93,7 +93,7 @@ class Bench {
     }
     tell(fmt::format("{}: the thesis's setting", workload_.name));
     eval::race(workload_, timed, shown_progress());
-    return eval::rows_of(workload_, kThesisCell_m, timed,
+    return eval::rows_of(workload_, kThesisVoxel_m, timed,
                          fmt::format(", n = {}", kThesisDownsample));
   }
 
@@ -234,7 +234,7 @@ Action declare_bench(CLI::App& parser) {
       ->check(range(0, 100'000))
       ->type_name("N")
       ->capture_default_str();
-  parser.add_option("--voxel", o->voxels_m, "edges of a cell, as in 0.2,0.05")
+  parser.add_option("--voxel", o->voxels_m, "edges of a voxel, as in 0.2,0.05")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("M")

@@ -58,7 +58,7 @@ void print_text(const eval::CubeClaims::Confusion& counts, std::uint64_t same, s
     fmt::print("{:>10}{:>12}{:>12}{:>12}{:>12}\n", row == 0 ? "first:" : "", kStateNames[row],
                counts[row][0], counts[row][1], counts[row][2]);
   }
-  fmt::print("{} of {} cells are the same ({:.2f} %)\n", same, all,
+  fmt::print("{} of {} voxels are the same ({:.2f} %)\n", same, all,
              all == 0 ? 100.0 : 100.0 * static_cast<double>(same) / static_cast<double>(all));
 }
 
@@ -69,9 +69,9 @@ Faults compare(const CompareOptions& options) {
   if (!b) return {b.error()};
   if (std::abs(a->voxel_m() - b->voxel_m()) > 1e-6 * a->voxel_m()) {
     return {{ErrorCode::kUnsupported, options.second,
-             fmt::format("its cells are {} m, those of {} are {} m", b->voxel_m(), options.first,
+             fmt::format("its voxels are {} m, those of {} are {} m", b->voxel_m(), options.first,
                          a->voxel_m()),
-             "compare maps of one cell size"}};
+             "compare maps of one voxel size"}};
   }
   const eval::CubeClaims::Confusion counts = eval::compare_claims(*a, *b);
   std::uint64_t same = 0, all = 0;
@@ -80,7 +80,7 @@ Faults compare(const CompareOptions& options) {
     for (const std::uint64_t n : counts[row]) all += n;
   }
   if (options.as_json) {
-    fmt::print("{}\n", json_text({{"cells", all}, {"same", same}, {"first_by_second", counts}}));
+    fmt::print("{}\n", json_text({{"voxels", all}, {"same", same}, {"first_by_second", counts}}));
   } else {
     print_text(counts, same, all);
   }
@@ -97,9 +97,9 @@ Action declare_compare(CLI::App& parser) {
   declare_salvage(parser, o->is_salvaged);
   parser.footer(
       "Examples:\n"
-      "  swiftlet compare flat.swl flat.bt      our map and its export: every cell the same\n"
+      "  swiftlet compare flat.swl flat.bt      our map and its export: every voxel the same\n"
       "  swiftlet compare monday.swl friday.swl\n"
-      "Cells are compared by what they claim: free, unknown or occupied. Cells that are unknown "
+      "Voxels are compared by what they claim: free, unknown or occupied. Voxels that are unknown "
       "in\n"
       "both are not counted.");
   return [o] { return compare(*o); };

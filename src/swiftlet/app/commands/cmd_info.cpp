@@ -27,7 +27,7 @@ struct InfoOptions {
   bool is_salvaged = false;
 };
 
-/// The corners of the known cells [m, world].
+/// The corners of the known voxels [m, world].
 struct Bounds {
   Eigen::Vector3d low;
   Eigen::Vector3d high;
@@ -49,9 +49,10 @@ std::uintmax_t bytes_of(const SavedMap& map) {
 void print_text(const SavedMap& map, const MapSummary& summary, const std::string& note) {
   fmt::print("{} ({})\n", visible(map.path().string()), size_text(bytes_of(map)));
   fmt::print("  frames     {}\n", map.frames());
-  fmt::print("  cells      {} occupied, {} free, {} unknown in {} blocks\n", summary.cells.occupied,
-             summary.cells.free, summary.cells.unknown, map.block_count());
-  fmt::print("  cell size  {} m\n", map.voxel_m());
+  fmt::print("  voxels      {} occupied, {} free, {} unknown in {} blocks\n",
+             summary.voxels.occupied, summary.voxels.free, summary.voxels.unknown,
+             map.block_count());
+  fmt::print("  voxel size  {} m\n", map.voxel_m());
   if (const auto b = bounds_of(map, summary)) {
     fmt::print("  bounds     x {:.2f} .. {:.2f}, y {:.2f} .. {:.2f}, z {:.2f} .. {:.2f} m\n",
                b->low.x(), b->high.x(), b->low.y(), b->high.y(), b->low.z(), b->high.z());
@@ -80,10 +81,10 @@ void print_json(const OpenedMap& opened, const MapSummary& summary, const std::s
       {"frames", map.frames()},
       {"voxel_m", map.voxel_m()},
       {"blocks", map.block_count()},
-      {"cells",
-       {{"occupied", summary.cells.occupied},
-        {"free", summary.cells.free},
-        {"unknown", summary.cells.unknown}}},
+      {"voxels",
+       {{"occupied", summary.voxels.occupied},
+        {"free", summary.voxels.free},
+        {"unknown", summary.voxels.unknown}}},
       {"meta", map.meta()},
   };
   if (const auto b = bounds_of(map, summary)) {
@@ -141,7 +142,7 @@ Action declare_info(CLI::App& parser) {
   parser.footer(
       "Examples:\n"
       "  swiftlet info flat.swl\n"
-      "  swiftlet info flat.swl --json | jq .cells\n"
+      "  swiftlet info flat.swl --json | jq .voxels\n"
       "  swiftlet info flight.bag       lists its topics and what of them would be mapped");
   return [o] { return info(*o); };
 }

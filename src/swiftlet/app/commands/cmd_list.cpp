@@ -17,7 +17,7 @@
 #include "swiftlet/integrate/measurement_models.hpp"
 #include "swiftlet/integrate/rays/ray_method.hpp"
 #include "swiftlet/preprocess/depth_step.hpp"
-#include "swiftlet/render/map_view.hpp"
+#include "swiftlet/render/projection.hpp"
 #include "swiftlet/sim/built_in_scenes.hpp"
 #include "swiftlet/sim/random/scene_kinds.hpp"
 #include "swiftlet/source/sources.hpp"
@@ -98,7 +98,8 @@ const std::array kKinds{
     Kind{"models", "parameter integrate.model", listed_models},
     Kind{"integrators", "parameter integrate.integrator", [] { return listed(integrators()); }},
     Kind{"exporters", "swiftlet export --to", [] { return listed(exporters()); }},
-    Kind{"views", "swiftlet render --view", [] { return listed(render::map_views()); }},
+    Kind{"projections", "swiftlet render --projection",
+         [] { return listed(render::projections()); }},
     Kind{"scores", "swiftlet score", [] { return listed(eval::scores()); }},
     Kind{"checks", "swiftlet doctor", [] { return listed(doctor::doctor_checks()); }},
     Kind{"experiments", "swiftlet experiment", [] { return listed(eval::experiments()); }},

@@ -82,7 +82,7 @@ Action declare_score(CLI::App& parser) {
       ->type_name("N")
       ->capture_default_str();
   declare_config_flags(parser, o->config);
-  parser.add_flag("--json", o->as_json, "one JSON object with every cell, for machines");
+  parser.add_flag("--json", o->as_json, "one JSON object with every voxel, for machines");
   parser.footer(
       "Examples:\n"
       "  swiftlet score sim:apartment --set map.voxel_m=0.1\n"

@@ -52,12 +52,12 @@ std::string rows_text(std::span<const BenchRow> rows) {
   for (const BenchRow& row : rows) width = std::max(width, row.workload.size());
   std::string text =
       fmt::format("{:{}}  {:>6}  {:<19} {:>7} {:>6} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9}\n",
-                  "workload", width, "cell m", "integrator", "threads", "frames", "min ms",
+                  "workload", width, "voxel m", "integrator", "threads", "frames", "min ms",
                   "median ms", "p99 ms", "Mpixel/s", "map", "x plain", "x discr.");
   for (const BenchRow& r : rows) {
     text += fmt::format(
         "{:{}}  {:>6}  {:<19} {:>7} {:>6} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.1f} {:>9} {:>9} {:>9}\n",
-        r.workload, width, r.cell_m, r.integrator, r.threads, r.frames, r.min_ms, r.median_ms,
+        r.workload, width, r.voxel_m, r.integrator, r.threads, r.frames, r.min_ms, r.median_ms,
         r.p99_ms, r.mpixel_s, size_text(r.map_bytes), ratio_text(r.speedup_vs_octomap_plain),
         ratio_text(r.speedup_vs_octomap_discretised));
   }
@@ -75,7 +75,7 @@ nlohmann::ordered_json rows_json(const Machine& m, std::span<const BenchRow> row
   for (const BenchRow& r : rows) {
     json["rows"].push_back(
         {{"workload", r.workload},
-         {"cell_m", r.cell_m},
+         {"voxel_m", r.voxel_m},
          {"integrator", r.integrator},
          {"threads", r.threads},
          {"frames", r.frames},
@@ -92,7 +92,7 @@ nlohmann::ordered_json rows_json(const Machine& m, std::span<const BenchRow> row
 
 std::string tables_text(const ThesisTables& tables) {
   std::string text = fmt::format(
-      "Table 4.2 of the thesis: function times, {}, cells of {} m, one thread, median ms\n"
+      "Table 4.2 of the thesis: function times, {}, voxels of {} m, one thread, median ms\n"
       "  {:<44}{:>12}{:>12}\n",
       tables.workload, eval::kThesisTablesVoxel_m, "", "thesis", "here");
   for (const ThesisLine& line : tables.functions) text += line_text(line, false);
@@ -121,7 +121,7 @@ nlohmann::ordered_json tables_json(const ThesisTables& tables) {
     return array;
   };
   return {{"workload", tables.workload},
-          {"cell_m", eval::kThesisTablesVoxel_m},
+          {"voxel_m", eval::kThesisTablesVoxel_m},
           {"functions_4_2", lines(tables.functions)},
           {"mapping_4_3", lines(tables.mapping)}};
 }

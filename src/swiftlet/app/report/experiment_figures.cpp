@@ -28,7 +28,7 @@ constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f
 
 std::string csv_of(const Figure& figure) {
   std::string csv;
-  if (figure.cells.empty()) {
+  if (figure.voxels.empty()) {
     csv = fmt::format("curve,{},{}\n", figure.x_label, figure.y_label);
     for (const Curve& curve : figure.curves) {
       for (const auto& [x, y] : curve.points) csv += fmt::format("{},{},{}\n", curve.name, x, y);
@@ -36,22 +36,22 @@ std::string csv_of(const Figure& figure) {
     return csv;
   }
   csv = fmt::format("{},{},belief\n", figure.x_label, figure.y_label);
-  for (std::size_t j = 0; j < figure.cells.size(); ++j) {
-    for (std::size_t i = 0; i < figure.cells[j].size(); ++i)
-      csv += fmt::format("{:.3f},{:.3f},{}\n", figure.x0 + figure.cell * static_cast<double>(i),
-                         figure.y0 + figure.cell * static_cast<double>(j), figure.cells[j][i]);
+  for (std::size_t j = 0; j < figure.voxels.size(); ++j) {
+    for (std::size_t i = 0; i < figure.voxels[j].size(); ++i)
+      csv += fmt::format("{:.3f},{:.3f},{}\n", figure.x0 + figure.voxel * static_cast<double>(i),
+                         figure.y0 + figure.voxel * static_cast<double>(j), figure.voxels[j][i]);
   }
   return csv;
 }
 
 std::string plots_of(const Figure& figure, std::string& data) {
-  if (!figure.cells.empty()) {
-    for (const auto& row : figure.cells) data += fmt::format("{}\n", fmt::join(row, " "));
+  if (!figure.voxels.empty()) {
+    for (const auto& row : figure.voxels) data += fmt::format("{}\n", fmt::join(row, " "));
     return fmt::format(
         "set size ratio -1\nset cbrange [0:255]\nset cblabel 'belief'\n"
         "set palette defined (0 '#f0e442', 127 '#ffffff', 180 '#56b4e9', 255 '#0072b2')\n"
         "plot $data matrix using ({}+$1*{}):({}+$2*{}):3 with image pixels notitle\n",
-        figure.x0, figure.cell, figure.y0, figure.cell);
+        figure.x0, figure.voxel, figure.y0, figure.voxel);
   }
   std::string plots;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {

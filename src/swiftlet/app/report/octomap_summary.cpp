@@ -14,7 +14,7 @@
 namespace swiftlet::app {
 namespace {
 
-/// The corners of the known cells [m, world].
+/// The corners of the known voxels [m, world].
 struct Corners {
   Eigen::Vector3d low, high;
 };
@@ -31,8 +31,8 @@ std::optional<Corners> corners_of(const OctomapSummary& octomap) {
 std::string octomap_text(const std::string& path, std::uintmax_t bytes,
                          const OctomapSummary& octomap) {
   std::string text = fmt::format(
-      "{} ({}): OctoMap, {}\n  cells      {} occupied, {} free in {} leaves\n  cell size  {} m\n",
-      visible(path), size_text(bytes), octomap.kind, octomap.occupied_cells, octomap.free_cells,
+      "{} ({}): OctoMap, {}\n  voxels      {} occupied, {} free in {} leaves\n  voxel size  {} m\n",
+      visible(path), size_text(bytes), octomap.kind, octomap.occupied_voxels, octomap.free_voxels,
       octomap.leaves, octomap.voxel_m);
   if (const auto c = corners_of(octomap)) {
     text +=
@@ -51,7 +51,7 @@ std::string octomap_json(const std::string& path, std::uintmax_t bytes,
       {"voxel_m", octomap.voxel_m},
       {"nodes", octomap.nodes},
       {"leaves", octomap.leaves},
-      {"cells", {{"occupied", octomap.occupied_cells}, {"free", octomap.free_cells}}}};
+      {"voxels", {{"occupied", octomap.occupied_voxels}, {"free", octomap.free_voxels}}}};
   if (const auto c = corners_of(octomap)) {
     json["bounds_m"] = {{"low", {c->low.x(), c->low.y(), c->low.z()}},
                         {"high", {c->high.x(), c->high.y(), c->high.z()}}};

@@ -38,7 +38,7 @@ std::string value_of(const std::optional<double>& value, Unit unit) {
   return fmt::format("{:.0f}", *value);
 }
 
-/// Those that nothing warns of first, in the order of their cells otherwise.
+/// Those that nothing warns of first, in the order of their voxels otherwise.
 std::vector<Finding> worst_first(std::vector<Finding> findings) {
   std::stable_partition(findings.begin(), findings.end(),
                         [](const Finding& f) { return !f.is_warned; });
@@ -50,11 +50,11 @@ std::string findings_text(const std::string& map, const std::vector<Finding>& al
   if (all.empty()) return {};
   std::map<std::string, std::size_t> by_object;
   for (const Finding& f : all) ++by_object[f.what];
-  std::string text = fmt::format("\n{}: {} solid cells called free\n", map, all.size());
+  std::string text = fmt::format("\n{}: {} solid voxels called free\n", map, all.size());
   std::size_t shown = 0;
   for (const Finding& f : worst_first(all)) {
     if (shown++ == kShown) break;
-    const Eigen::Vector3d p = centre_of(f.cell, voxel_m);
+    const Eigen::Vector3d p = centre_of(f.voxel, voxel_m);
     text += fmt::format("  ({:6.2f}, {:6.2f}, {:6.2f}) m  {}{}\n", p.x(), p.y(), p.z(), f.what,
                         f.is_warned ? "" : "; no occupied neighbour");
   }
@@ -70,7 +70,7 @@ std::size_t column_width(const std::string& map) { return std::max(map.size(), s
 std::string score_text(const ScoreReport& report) {
   std::size_t width = 0;
   for (const ScoreRow& row : report.rows) width = std::max(width, row.meaning.name.size());
-  std::string text = fmt::format("{}: {} frames, {:.1f} s of flight; cells of {} m\n",
+  std::string text = fmt::format("{}: {} frames, {:.1f} s of flight; voxels of {} m\n",
                                  report.source, report.frames, report.flight_s, report.voxel_m);
   if (!report.intrinsics.empty()) text += fmt::format("intrinsics {}\n", report.intrinsics);
   text += fmt::format("\n{:{}}  better", "", width);
@@ -108,20 +108,20 @@ nlohmann::ordered_json score_json(const ScoreReport& report) {
   }
   Json free_but_solid = Json::object();
   for (std::size_t i = 0; i < report.findings.size(); ++i) {
-    Json cells = Json::array();
+    Json voxels = Json::array();
     for (const Finding& f : worst_first(report.findings[i])) {
-      const Eigen::Vector3d p = centre_of(f.cell, report.voxel_m);
-      cells.push_back({{"cell", {f.cell.x, f.cell.y, f.cell.z}},
-                       {"centre_m", {p.x(), p.y(), p.z()}},
-                       {"holds", f.what},
-                       {"has_occupied_neighbour", f.is_warned}});
+      const Eigen::Vector3d p = centre_of(f.voxel, report.voxel_m);
+      voxels.push_back({{"voxel", {f.voxel.x, f.voxel.y, f.voxel.z}},
+                        {"centre_m", {p.x(), p.y(), p.z()}},
+                        {"holds", f.what},
+                        {"has_occupied_neighbour", f.is_warned}});
     }
-    free_but_solid[report.maps[i]] = std::move(cells);
+    free_but_solid[report.maps[i]] = std::move(voxels);
   }
   return {{"source", report.source},     {"intrinsics", report.intrinsics},
           {"voxel_m", report.voxel_m},   {"frames", report.frames},
           {"flight_s", report.flight_s}, {"maps", report.maps},
-          {"scores", std::move(rows)},   {"solid_cells_called_free", std::move(free_but_solid)}};
+          {"scores", std::move(rows)},   {"solid_voxels_called_free", std::move(free_but_solid)}};
 }
 
 }  // namespace swiftlet::app

@@ -108,10 +108,10 @@ std::string dropped_text(const std::map<std::string, std::size_t>& dropped) {
 std::string files_text(const std::vector<SavedFile>& files) {
   std::string text;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    const auto& [path, bytes, blocks, frames, cells] = files[i];
+    const auto& [path, bytes, blocks, frames, voxels] = files[i];
     if (files.size() > 1) text += fmt::format("  world {:<4} {} frames\n", i + 1, frames);
-    text += fmt::format("  cells      {} occupied, {} free, {} unknown in {} blocks\n",
-                        cells.occupied, cells.free, cells.unknown, blocks);
+    text += fmt::format("  voxels      {} occupied, {} free, {} unknown in {} blocks\n",
+                        voxels.occupied, voxels.free, voxels.unknown, blocks);
     text += fmt::format("  map        {} ({})\n", path, size_text(bytes));
   }
   return text;
@@ -121,8 +121,8 @@ nlohmann::ordered_json file_json(const SavedFile& file) {
   return {{"path", file.path}, {"bytes", file.bytes}, {"blocks", file.blocks}};
 }
 
-nlohmann::ordered_json cells_json(const CellCounts& cells) {
-  return {{"occupied", cells.occupied}, {"free", cells.free}, {"unknown", cells.unknown}};
+nlohmann::ordered_json voxels_json(const VoxelCounts& voxels) {
+  return {{"occupied", voxels.occupied}, {"free", voxels.free}, {"unknown", voxels.unknown}};
 }
 
 nlohmann::ordered_json latency_json(const Latency& latency) {
@@ -206,14 +206,14 @@ std::string summary_json(const MappingSummary& s) {
       {"was_interrupted", s.was_interrupted},
   };
   if (!s.files.empty()) {  // the first is the one that was asked for
-    json["cells"] = cells_json(s.files.front().cells);
+    json["voxels"] = voxels_json(s.files.front().voxels);
     json["map"] = file_json(s.files.front());
   }
   json["maps"] = nlohmann::ordered_json::array();
   for (const SavedFile& file : s.files) {
     json["maps"].push_back(file_json(file));
     json["maps"].back()["frames"] = file.frames;
-    json["maps"].back()["cells"] = cells_json(file.cells);
+    json["maps"].back()["voxels"] = voxels_json(file.voxels);
   }
   return json_text(json) + "\n";
 }

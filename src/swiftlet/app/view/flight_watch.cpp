@@ -54,7 +54,7 @@ void FlightWatch::frame_done(const Frame& frame, const MapUpdate& update, const 
     report_.stage_ms[i] = static_cast<float>(seconds(update.times.of[i]) * 1e3);
   }
   report_.readings = static_cast<std::uint32_t>(update.tally.readings);
-  report_.cells = static_cast<std::uint32_t>(update.tally.cells);
+  report_.voxels = static_cast<std::uint32_t>(update.tally.voxels);
   report_.blocks_left = static_cast<std::uint32_t>(update.tally.blocks_left);
   report_.intrinsics = frame.intrinsics;
   report_.memory_bytes = mapper.memory_bytes();

@@ -56,7 +56,7 @@ class MapperSubject final : public BenchmarkSubject {
   [[nodiscard]] std::size_t map_bytes() const override { return mapper_.map().memory_bytes(); }
 
   void read_claims(Claims& claims) const override {
-    copy_box(WholeFlight(mapper_.map(), archive_.get()), claims.box(), claims.cells());
+    copy_box(WholeFlight(mapper_.map(), archive_.get()), claims.box(), claims.voxels());
   }
 
  private:
@@ -78,7 +78,7 @@ class PointsSubject final : public BenchmarkSubject {
   }
   [[nodiscard]] std::size_t map_bytes() const override { return 0; }
   void read_claims(Claims& claims) const override {
-    std::ranges::fill(claims.cells(), Occupancy::kUnknown);
+    std::ranges::fill(claims.voxels(), Occupancy::kUnknown);
   }
 
  private:

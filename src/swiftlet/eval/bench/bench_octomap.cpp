@@ -39,12 +39,12 @@ class OctomapSubject final : public BenchmarkSubject {
   [[nodiscard]] std::size_t map_bytes() const override { return tree_.memoryUsage(); }
 
   void read_claims(Claims& claims) const override {
-    std::ranges::fill(claims.cells(), Occupancy::kUnknown);
+    std::ranges::fill(claims.voxels(), Occupancy::kUnknown);
     const octomap::OcTreeKey first = key_of(claims.box().first), last = key_of(claims.box().last);
     for (auto leaf = tree_.begin_leafs_bbx(first, last), end = tree_.end_leafs_bbx(); leaf != end;
          ++leaf) {
       const Occupancy state = tree_.isNodeOccupied(*leaf) ? Occupancy::kOccupied : Occupancy::kFree;
-      const int edge = 1 << (tree_.getTreeDepth() - leaf.getDepth());  // of a pruned node [cells]
+      const int edge = 1 << (tree_.getTreeDepth() - leaf.getDepth());  // of a pruned node [voxels]
       const octomap::OcTreeKey corner = leaf.getIndexKey();
       for (int i = 0; i < edge * edge * edge; ++i) {
         const VoxelIndex v{corner[0] - kZeroKey + i % edge, corner[1] - kZeroKey + i / edge % edge,
@@ -55,7 +55,7 @@ class OctomapSubject final : public BenchmarkSubject {
   }
 
  private:
-  /// OctoMap counts its cells from here, on the same grid as ours.
+  /// OctoMap counts its voxels from here, on the same grid as ours.
   static constexpr int kZeroKey = 32768;
   static octomap::OcTreeKey key_of(const VoxelIndex& v) {
     const auto key = [](std::int32_t i) {

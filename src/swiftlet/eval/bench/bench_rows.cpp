@@ -46,7 +46,7 @@ Machine this_machine() {
           SWIFTLET_BUILD_TYPE, SWIFTLET_VERSION};
 }
 
-std::vector<BenchRow> rows_of(const Workload& workload, double cell_m,
+std::vector<BenchRow> rows_of(const Workload& workload, double voxel_m,
                               const std::vector<TimedSubject>& timed, const std::string& suffix) {
   const auto pixels = static_cast<double>(workload.frames.front().depth.raw.pixels().size());
   std::vector<BenchRow> rows;
@@ -55,7 +55,7 @@ std::vector<BenchRow> rows_of(const Workload& workload, double cell_m,
     constexpr double kLeast = 1e-9;  // of any number of frames that is the first
     const double median_ms = at(0.5);
     const double mpixel_s = median_ms > 0.0 ? 1e-3 * pixels / median_ms : 0.0;
-    rows.push_back({workload.name + suffix, cell_m, r.name, r.threads, r.latency.frame_count(),
+    rows.push_back({workload.name + suffix, voxel_m, r.name, r.threads, r.latency.frame_count(),
                     at(kLeast), median_ms, at(0.99), mpixel_s, r.subject->map_bytes(), std::nullopt,
                     std::nullopt});
   }

@@ -26,7 +26,7 @@ struct Machine {
 /// One line of the result. Times are of the measured frames, from the raw image to the map.
 struct BenchRow {
   std::string workload;                            ///< name of the scene or recording
-  double cell_m = 0.0;                             ///< edge of a cell [m]
+  double voxel_m = 0.0;                            ///< edge of a voxel [m]
   std::string integrator;                          ///< name
   int threads = 1;                                 ///< that share a frame
   std::size_t frames = 0;                          ///< that were fused
@@ -37,16 +37,16 @@ struct BenchRow {
   std::size_t map_bytes = 0;                       ///< of the map alone, without scratch
   std::optional<double> speedup_vs_octomap_plain;  ///< ratio of the medians of the same race
   std::optional<double>
-      speedup_vs_octomap_discretised;  ///< how many times as fast as OctoMap with one ray a cell
+      speedup_vs_octomap_discretised;  ///< how many times as fast as OctoMap with one ray a voxel
 };
 
 /// The row of OctoMap as it is.
 inline constexpr const char* kOctomapPlain = "octomap_plain";
-/// The row of OctoMap with one ray a cell.
+/// The row of OctoMap with one ray a voxel.
 inline constexpr const char* kOctomapDiscretised = "octomap_discretised";
 
 /// The rows of one race. `suffix` goes behind the workload's name.
-[[nodiscard]] std::vector<BenchRow> rows_of(const Workload& workload, double cell_m,
+[[nodiscard]] std::vector<BenchRow> rows_of(const Workload& workload, double voxel_m,
                                             const std::vector<TimedSubject>& timed,
                                             const std::string& suffix = {});
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "swiftlet/eval/truth/cell_grid.hpp"
+#include "swiftlet/eval/truth/dense_grid.hpp"
 #include "swiftlet/pipeline/mapper.hpp"
 
 namespace swiftlet::eval {
@@ -22,7 +22,7 @@ class BenchmarkSubject {
   virtual std::optional<StageTimes> fuse(const Frame& frame) = 0;
   /// Memory of the map alone, without scratch; 0 if there is none.
   [[nodiscard]] virtual std::size_t map_bytes() const = 0;
-  /// Tells what the map claims of every cell of claims.box().
+  /// Tells what the map claims of every voxel of claims.box().
   virtual void read_claims(Claims& claims) const = 0;
 };
 
@@ -32,7 +32,7 @@ class BenchmarkSubject {
     const MapperConfig& config, bool keeps_all = false);
 
 /// OctoMap's insertPointCloud(), the conversion to its point cloud included; null if Swiftlet was
-/// built without OctoMap. `is_discretised`: one ray a cell, OctoMap's own short cut.
+/// built without OctoMap. `is_discretised`: one ray a voxel, OctoMap's own short cut.
 [[nodiscard]] std::unique_ptr<BenchmarkSubject> make_octomap_subject(const MapperConfig& config,
                                                                      bool is_discretised);
 

@@ -10,7 +10,7 @@
 namespace swiftlet::eval {
 namespace {
 
-constexpr std::uint64_t cells_at(std::size_t level) { return std::uint64_t{1} << (3 * level); }
+constexpr std::uint64_t voxels_at(std::size_t level) { return std::uint64_t{1} << (3 * level); }
 
 constexpr std::size_t index_of(Occupancy state) { return static_cast<std::size_t>(state); }
 
@@ -42,22 +42,22 @@ Occupancy CubeClaims::around(const VoxelIndex& place, std::size_t place_level,
   return Occupancy::kUnknown;
 }
 
-std::array<std::uint64_t, 3> CubeClaims::cells() const {
+std::array<std::uint64_t, 3> CubeClaims::voxels() const {
   std::array<std::uint64_t, 3> sums{};
   for (std::size_t level = 0; level < kLevels; ++level) {
-    for (const auto& [place, state] : cubes_[level]) sums[index_of(state)] += cells_at(level);
+    for (const auto& [place, state] : cubes_[level]) sums[index_of(state)] += voxels_at(level);
   }
   return sums;
 }
 
 CubeClaims::Confusion compare_claims(const CubeClaims& a, const CubeClaims& b) {
   CubeClaims::Confusion counts{};
-  auto only_a = a.cells(), only_b = b.cells();
+  auto only_a = a.voxels(), only_b = b.voxels();
   const auto meet = [&](Occupancy in_a, Occupancy in_b, std::size_t level) {
     if (in_a == Occupancy::kUnknown || in_b == Occupancy::kUnknown) return;
-    counts[index_of(in_a)][index_of(in_b)] += cells_at(level);
-    only_a[index_of(in_a)] -= cells_at(level);
-    only_b[index_of(in_b)] -= cells_at(level);
+    counts[index_of(in_a)][index_of(in_b)] += voxels_at(level);
+    only_a[index_of(in_a)] -= voxels_at(level);
+    only_b[index_of(in_b)] -= voxels_at(level);
   };
   // Of two cubes that meet, the smaller one finds the larger; of two equal ones, that of a.
   for (std::size_t level = 0; level < CubeClaims::kLevels; ++level) {

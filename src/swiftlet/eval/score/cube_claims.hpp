@@ -12,10 +12,10 @@
 
 namespace swiftlet::eval {
 
-/// What a map claims: its free and occupied cells, in cubes that no two share a cell; all others
+/// What a map claims: its free and occupied voxels, in cubes that no two share a voxel; all others
 /// are unknown. A cube's edge is a power of two and its place a multiple of it, counted from the
 /// corner of OctoMap's world, so of two cubes that meet one holds the other. Memory and work go
-/// with the number of cubes, not of cells: a few bytes of an OctoMap may claim 2^48 of these.
+/// with the number of cubes, not of voxels: a few bytes of an OctoMap may claim 2^48 of these.
 class CubeClaims {
  public:
   explicit CubeClaims(double voxel_m) : voxel_m_(voxel_m) {}
@@ -26,7 +26,7 @@ class CubeClaims {
   /// state not unknown.
   void add(const VoxelIndex& first, std::int32_t edge, Occupancy state);
 
-  /// Cells by what the first map claims (row) and the second (column). Cells unknown to both are
+  /// Voxels by what the first map claims (row) and the second (column). Voxels unknown to both are
   /// not counted.
   using Confusion = std::array<std::array<std::uint64_t, 3>, 3>;
   friend Confusion compare_claims(const CubeClaims& a, const CubeClaims& b);
@@ -40,7 +40,7 @@ class CubeClaims {
   /// smallest cube to look for.
   [[nodiscard]] Occupancy around(const VoxelIndex& place, std::size_t place_level,
                                  std::size_t level) const;
-  [[nodiscard]] std::array<std::uint64_t, 3> cells() const;
+  [[nodiscard]] std::array<std::uint64_t, 3> voxels() const;
 
   double voxel_m_;
   std::array<std::unordered_map<VoxelIndex, Occupancy, VoxelHash>, kLevels> cubes_;

@@ -10,7 +10,7 @@
 
 #include "swiftlet/base/registry.hpp"
 #include "swiftlet/eval/truth/reaction.hpp"
-#include "swiftlet/eval/truth/thin_cells.hpp"
+#include "swiftlet/eval/truth/thin_voxels.hpp"
 #include "swiftlet/eval/truth/truth.hpp"
 
 namespace swiftlet::eval {
@@ -18,13 +18,13 @@ namespace swiftlet::eval {
 /// A map at the end of a flight, and what the flight was.
 struct Judged {
   const Truth& truth;    ///< what there is
-  const Claims& claims;  ///< of the map, over truth.cells().box()
-  /// Cells that were ever called occupied at a look, once a second of the flight.
-  const CellGrid<std::uint8_t>& ever_occupied;
-  /// The cells that another map knows, to compare over the same; null if there is no such map.
+  const Claims& claims;  ///< of the map, over truth.voxels().box()
+  /// Voxels that were ever called occupied at a look, once a second of the flight.
+  const DenseGrid<std::uint8_t>& ever_occupied;
+  /// The voxels that another map knows, to compare over the same; null if there is no such map.
   const Claims* reference = nullptr;
   double flight_s = 0.0;                 ///< how long the flight was
-  std::span<const ThinCell> thin{};      ///< cells of thin objects, with how near they were seen
+  std::span<const ThinVoxel> thin{};     ///< voxels of thin objects, with how near they were seen
   const Reactions* reactions = nullptr;  ///< null where nothing moves
 };
 
@@ -40,17 +40,17 @@ struct ScoreValue {
   std::size_t of = 0;            ///< how many things it was counted over
 };
 
-/// A cell that a planner must hear of one by one.
+/// A voxel that a planner must hear of one by one.
 struct Finding {
-  VoxelIndex cell;        ///< which one
+  VoxelIndex voxel;       ///< which one
   std::string what;       ///< what is there
-  bool is_warned = true;  ///< a neighbour is called occupied, so that a margin of one cell saves
+  bool is_warned = true;  ///< a neighbour is called occupied, so that a margin of one voxel saves
 };
 
 /// What one score tells of a map.
 struct ScoreResult {
   std::vector<ScoreValue> values;  ///< empty if the flight has nothing to judge by
-  std::vector<Finding> findings;   ///< solid cells that are called free
+  std::vector<Finding> findings;   ///< solid voxels that are called free
 };
 
 /// A score is one file and one line in scores.cpp.

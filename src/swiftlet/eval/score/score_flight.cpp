@@ -30,7 +30,7 @@ constexpr Nanoseconds kPhantomsEvery = std::chrono::seconds(1);
 struct Tested {
   ScoredMap scored;
   Claims claims;  // over the whole truth
-  CellGrid<std::uint8_t> ever_occupied;
+  DenseGrid<std::uint8_t> ever_occupied;
   Claims mover_claims;  // where something moves
   Reactions reactions;
 };
@@ -65,8 +65,8 @@ class FlownWorld {
     sight_.stride_px = stride_px;
     lines_of_sight(caster_, {intrinsics_, flight_.true_pose(stamp, camera)}, sight_, lines);
   }
-  void look_at(Stamp stamp, std::size_t camera, std::vector<ThinCell>& cells) {
-    eval::look_at(cells, caster_, {intrinsics_, flight_.true_pose(stamp, camera)}, sight_);
+  void look_at(Stamp stamp, std::size_t camera, std::vector<ThinVoxel>& voxels) {
+    eval::look_at(voxels, caster_, {intrinsics_, flight_.true_pose(stamp, camera)}, sight_);
   }
   [[nodiscard]] std::vector<sim::Object> movers(Stamp stamp) const {
     return movers_at(flight_.scene, flight_.flown(stamp));
@@ -76,7 +76,7 @@ class FlownWorld {
   Expected<VoxelBox> extent(double voxel_m) {
     constexpr int kCoarse_px = 16;
     constexpr Nanoseconds kStep = std::chrono::milliseconds(250);
-    constexpr double kMostCells = 6e7;  // some 1 GB for the truth and two maps
+    constexpr double kMostVoxels = 6e7;  // some 1 GB for the truth and two maps
     std::vector<SightLine> lines, all;
     for (Nanoseconds t{0}; t <= scene().flight.duration() - flight_.options.start; t += kStep) {
       for (std::size_t i = 0; i < flight_.T_flown_camera.size(); ++i) {
@@ -89,11 +89,11 @@ class FlownWorld {
                   "choose a larger depth.max_range_m");
     }
     const VoxelBox box = box_around(all, voxel_m);
-    const double cells = (box.last.x - box.first.x + 1.0) * (box.last.y - box.first.y + 1.0) *
-                         (box.last.z - box.first.z + 1.0);
-    if (cells <= kMostCells) return box;
+    const double voxels = (box.last.x - box.first.x + 1.0) * (box.last.y - box.first.y + 1.0) *
+                          (box.last.z - box.first.z + 1.0);
+    if (voxels <= kMostVoxels) return box;
     return fail(ErrorCode::kUsage, flight_.scene.name,
-                fmt::format("the flight sees a box of {:.0f} million cells", 1e-6 * cells),
+                fmt::format("the flight sees a box of {:.0f} million voxels", 1e-6 * voxels),
                 "choose a larger map.voxel_m or a shorter depth.max_range_m");
   }
 
@@ -104,11 +104,11 @@ class FlownWorld {
   SightOptions sight_;
 };
 
-VoxelBox bounds_of(const std::vector<VoxelIndex>& cells) {
+VoxelBox bounds_of(const std::vector<VoxelIndex>& voxels) {
   VoxelBox box{{0, 0, 0}, {0, 0, 0}};
-  if (cells.empty()) return box;
-  box = {cells.front(), cells.front()};
-  for (const VoxelIndex& v : cells) box.include(v);
+  if (voxels.empty()) return box;
+  box = {voxels.front(), voxels.front()};
+  for (const VoxelIndex& v : voxels) box.include(v);
   return box;
 }
 
@@ -117,15 +117,15 @@ class Judge {
  public:
   Judge(FlownWorld world, const VoxelBox& box, double voxel_m, std::vector<ScoredMap> scored_maps)
       : world_(std::move(world)), truth_(world_.scene().objects, voxel_m, box) {
-    const auto swept = swept_cells(world_.scene(), voxel_m, box);
+    const auto swept = swept_voxels(world_.scene(), voxel_m, box);
     for (const VoxelIndex& v : swept) truth_.mark_swept(v);
-    thin_ = thin_cells(truth_);
+    thin_ = thin_voxels(truth_);
     has_movers_ = !swept.empty();
     const VoxelBox movers = bounds_of(swept);
     sights_ = MoverSights(movers, MoverSight::kNothing);
     for (ScoredMap& scored : scored_maps) {
       tested_.push_back({std::move(scored), Claims(box, Occupancy::kUnknown),
-                         CellGrid<std::uint8_t>(box, 0), Claims(movers, Occupancy::kUnknown),
+                         DenseGrid<std::uint8_t>(box, 0), Claims(movers, Occupancy::kUnknown),
                          Reactions(movers)});
     }
   }
@@ -181,8 +181,8 @@ class Judge {
   void note_occupied() {
     for (Tested& t : tested_) {
       t.scored.map->read_claims(t.claims);
-      const auto claims = t.claims.cells();
-      const auto ever = t.ever_occupied.cells();
+      const auto claims = t.claims.voxels();
+      const auto ever = t.ever_occupied.voxels();
       for (std::size_t i = 0; i < ever.size(); ++i) {
         if (claims[i] == Occupancy::kOccupied) ever[i] = 1;
       }
@@ -193,7 +193,7 @@ class Judge {
     see_movers(world_.movers(stamp), lines_, truth_.voxel_m(), sights_);
     for (std::size_t i = 0; i < sights_.size(); ++i) {
       // The floor that somebody walks on comes and goes with nobody.
-      if (truth_.holds_matter(sights_.voxel(i))) sights_.cells()[i] = MoverSight::kNothing;
+      if (truth_.holds_matter(sights_.voxel(i))) sights_.voxels()[i] = MoverSight::kNothing;
     }
     for (Tested& t : tested_) {
       t.scored.map->read_claims(t.mover_claims);
@@ -203,7 +203,7 @@ class Judge {
 
   FlownWorld world_;
   Truth truth_;
-  std::vector<ThinCell> thin_;
+  std::vector<ThinVoxel> thin_;
   bool has_movers_ = false;
   MoverSights sights_;
   std::vector<Tested> tested_;

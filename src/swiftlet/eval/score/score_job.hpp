@@ -17,7 +17,7 @@ namespace swiftlet::eval {
 /// What is to be judged, and on what.
 struct ScoreJob {
   std::string source;             ///< address
-  MapperConfig config;            ///< of our maps; cell size and range of all
+  MapperConfig config;            ///< of our maps; voxel size and range of all
   std::vector<std::string> maps;  ///< names of measurement models or integrators, or "octomap"
   std::size_t frames = 600;       ///< evenly over the flight
   ProgressFunction progress{};    ///< told of the frames; may be empty
@@ -37,8 +37,8 @@ inline constexpr const char* kOctomap = "octomap";
 [[nodiscard]] Expected<std::vector<ScoredMap>> make_scored_maps(const ScoreJob& job);
 
 /// Flies a simulated flight and judges the maps by the truth.
-/// Errors: those of the source and of make_scored_maps(); kUsage if the truth needs more cells than
-/// memory should hold; kUnsupported without Embree.
+/// Errors: those of the source and of make_scored_maps(); kUsage if the truth needs more voxels
+/// than memory should hold; kUnsupported without Embree.
 [[nodiscard]] Expected<ScoreReport> score_flight(const ScoreJob& job);
 
 /// Maps a recording but for every fifth frame and judges the maps by those.

@@ -20,8 +20,8 @@ ScoreValue percentile(std::string name, std::vector<int> frames, double share_of
 
 }  // namespace
 
-/// Frames in which a cell must be seen until what has come into it is occupied, and until what has
-/// gone is free: median and 95th percentile over the cells that are free in the end, and the share
+/// Frames in which a voxel must be seen until what has come into it is occupied, and until what has
+/// gone is free: median and 95th percentile over the voxels that are free in the end, and the share
 /// of all that was not free in time (see Reactions).
 ScoreResult score_movers(const Judged& judged) {
   static_assert(Reactions::kFreedWithin == 10);
@@ -35,7 +35,7 @@ ScoreResult score_movers(const Judged& judged) {
            percentile("what has gone is free after, 95 %", r.until_free(), 0.95),
            share("what has gone and is not free after 10 frames", r.not_freed(),
                  r.freed() + r.not_freed(), false),
-           {"ghost cells at the end", static_cast<double>(r.ghosts()), Unit::kCount, false, came}},
+           {"ghost voxels at the end", static_cast<double>(r.ghosts()), Unit::kCount, false, came}},
           {}};
 }
 

@@ -7,14 +7,14 @@ namespace swiftlet::eval {
 
 ScoreResult score_phantoms(const Judged& judged);
 
-/// Cells called occupied that were looked through and have no matter within one cell, per minute of
-/// flight: at its end, and all that were there at one of the looks, once a second. Claims about
+/// Voxels called occupied that were looked through and have no matter within one voxel, per minute
+/// of flight: at its end, and all that were there at one of the looks, once a second. Claims about
 /// what nobody saw are the business of score_unknown().
 ScoreResult score_phantoms(const Judged& judged) {
   const Truth& truth = judged.truth;
   std::size_t last = 0, ever = 0;
-  truth.cells().for_each([&](const VoxelIndex& v, const CellTruth& cell) {
-    if (judged.ever_occupied.at(v) == 0 || cell.is_swept || cell.through == 0) return;
+  truth.voxels().for_each([&](const VoxelIndex& v, const VoxelTruth& voxel) {
+    if (judged.ever_occupied.at(v) == 0 || voxel.is_swept || voxel.through == 0) return;
     if (any_within(v, 1, [&](const VoxelIndex& n) { return truth.holds_matter(n); })) return;
     ++ever;
     last += judged.claims.at(v) == Occupancy::kOccupied ? 1 : 0;
@@ -24,7 +24,7 @@ ScoreResult score_phantoms(const Judged& judged) {
     const double value = minutes > 0.0 ? static_cast<double>(count) / minutes : 0.0;
     return ScoreValue{std::move(name), value, Unit::kPerMinute, false, count};
   };
-  return {{rate("phantom cells at the end", last), rate("phantom cells at any time", ever)}, {}};
+  return {{rate("phantom voxels at the end", last), rate("phantom voxels at any time", ever)}, {}};
 }
 
 }  // namespace swiftlet::eval

@@ -55,10 +55,10 @@ Expected<ScoreReport> score_recording(const ScoreJob& job) {
     (*scored_maps)[i].map->read_claims(claims);
     const Consistency c = consistency_of(claims, left_out, report.voxel_m);
     add_value(report, i, "leave_out",
-              value_of_share("left-out readings that end within 1 cell of an occupied one",
+              value_of_share("left-out readings that end within 1 voxel of an occupied one",
                              c.met_share(), true, c.points));
     add_value(report, i, "leave_out",
-              value_of_share("left-out rays blocked more than 2 cells before", c.blocked_share(),
+              value_of_share("left-out rays blocked more than 2 voxels before", c.blocked_share(),
                              false, c.points));
   }
   return report;

@@ -21,12 +21,12 @@ struct ScoreRow {
 /// How right maps are that were made from the same frames.
 struct ScoreReport {
   std::string source;                            ///< address
-  double voxel_m = 0.0;                          ///< edge of a cell of all maps
+  double voxel_m = 0.0;                          ///< edge of a voxel of all maps
   std::size_t frames = 0;                        ///< that each was made of
   double flight_s = 0.0;                         ///< how long it was flown; 0 of a recording
   std::vector<std::string> maps;                 ///< names
   std::vector<ScoreRow> rows{};                  ///< in the order of their first value
-  std::vector<std::vector<Finding>> findings{};  ///< of each map: solid cells called free
+  std::vector<std::vector<Finding>> findings{};  ///< of each map: solid voxels called free
   std::string intrinsics{};  ///< of recordings: where those of the camera came from
 };
 

@@ -26,17 +26,17 @@ struct FittedWall {
   double slope = 0.0;  // metres in front per metre along
   double rms_m = 0.0;
   std::size_t columns = 0;
-  std::size_t straight = 0;  // columns within half a cell of the line
+  std::size_t straight = 0;  // columns within half a voxel of the line
 };
 
-/// Whether something else stands before a place on a wall, or before one a cell beside it: that is
+/// Whether something else stands before a place on a wall, or before one a voxel beside it: that is
 /// what the map shows there.
 bool is_obstructed(const Truth& truth, const WallFace& face, const Eigen::Vector3d& p) {
   const double c = truth.voxel_m();
   const auto stands_before = [&](const Eigen::Vector3d& q) {
     const VoxelIndex behind_face = voxel_containing(q - 0.25 * c * face.normal, c);
     const VoxelIndex at_face = voxel_containing(q, c);
-    for (double height = 0.25; height <= 2.5; height += 0.25) {  // in cells
+    for (double height = 0.25; height <= 2.5; height += 0.25) {  // in voxels
       const VoxelIndex v = voxel_containing(q + height * c * face.normal, c);
       if (v != behind_face && v != at_face && truth.holds_matter(v)) return true;
     }
@@ -50,13 +50,14 @@ bool is_obstructed(const Truth& truth, const WallFace& face, const Eigen::Vector
   return false;
 }
 
-/// Offset of the first occupied cell along the inward normal, within two cells of the true surface.
+/// Offset of the first occupied voxel along the inward normal, within two voxels of the true
+/// surface.
 std::optional<double> offset_at(const Judged& judged, const WallFace& face,
                                 const Eigen::Vector3d& p) {
   const double c = judged.truth.voxel_m();
   const VoxelIndex own = voxel_containing(p - 0.25 * c * face.normal, c);
   if (!judged.claims.contains(own)) return std::nullopt;
-  if (!Truth::is_seen_surface(judged.truth.cells().at(own))) return std::nullopt;
+  if (!Truth::is_seen_surface(judged.truth.voxels().at(own))) return std::nullopt;
   if (is_obstructed(judged.truth, face, p)) return std::nullopt;
   constexpr int kSteps = 16;
   for (int i = 0; i <= kSteps; ++i) {
@@ -69,7 +70,7 @@ std::optional<double> offset_at(const Judged& judged, const WallFace& face,
 }
 
 std::vector<Column> columns_of(const Judged& judged, const WallFace& face) {
-  constexpr int kFewest = 3;  // cells, one above the other, that make a column
+  constexpr int kFewest = 3;  // voxels, one above the other, that make a column
   const double c = judged.truth.voxel_m();
   std::vector<Column> columns;
   for (double s = 0.5 * c; s < face.length_m; s += c) {
@@ -133,9 +134,9 @@ std::optional<double> corner_error_deg(const FittedWall& a, const FittedWall& b)
 }  // namespace
 
 /// Walls are the upright faces of boxes, at least 1.5 m long and high, of which 60 % were seen.
-/// Where the map has a wall: the mean place of the first occupied cells, column by column, and the
+/// Where the map has a wall: the mean place of the first occupied voxels, column by column, and the
 /// line through them. Straightness: RMS of the columns about their line, of the worst wall, and the
-/// share of columns within half a cell. Corners: how far the angles between walls that meet are
+/// share of columns within half a voxel. Corners: how far the angles between walls that meet are
 /// from the true ones.
 ScoreResult score_walls(const Judged& judged) {
   std::vector<FittedWall> walls;
@@ -159,7 +160,7 @@ ScoreResult score_walls(const Judged& judged) {
   }
   ScoreResult result{{{"wall straightness, RMS of the worst wall", worst_rms_m, Unit::kMetres,
                        false, walls.size()},
-                      share("wall columns within half a cell of their line", straight, columns)},
+                      share("wall columns within half a voxel of their line", straight, columns)},
                      {}};
   if (corners == 0) return result;
   const double mean = sum_corner / static_cast<double>(corners);

@@ -7,15 +7,15 @@
 #include "swiftlet/eval/score/score.hpp"
 
 // A score is one file, which ends in score_<name>(), and one line here.
-#define SWIFTLET_SCORES(X)                                                                   \
-  X(occupied, "precision and recall of occupied cells, exactly and within one cell")         \
-  X(free, "cells called free that hold matter, the deadly ones; empty ones called free")     \
-  X(near_surfaces, "both errors near surfaces, over the cells that the reference map knows") \
-  X(unknown, "never-seen cells that are left unknown")                                       \
-  X(surface, "where lines of sight meet the map, against the true surface")                  \
-  X(walls, "straightness of walls and angles of corners")                                    \
-  X(phantoms, "occupied cells with nothing near, per minute")                                \
-  X(thin, "recall of thin objects by diameter and distance")                                 \
+#define SWIFTLET_SCORES(X)                                                                    \
+  X(occupied, "precision and recall of occupied voxels, exactly and within one voxel")        \
+  X(free, "voxels called free that hold matter, the deadly ones; empty ones called free")     \
+  X(near_surfaces, "both errors near surfaces, over the voxels that the reference map knows") \
+  X(unknown, "never-seen voxels that are left unknown")                                       \
+  X(surface, "where lines of sight meet the map, against the true surface")                   \
+  X(walls, "straightness of walls and angles of corners")                                     \
+  X(phantoms, "occupied voxels with nothing near, per minute")                                \
+  X(thin, "recall of thin objects by diameter and distance")                                  \
   X(movers, "frames until what comes is occupied and what has gone is free")
 
 namespace swiftlet::eval {

@@ -13,13 +13,13 @@ Expected<ExperimentResult> run_aisle(const ProgressFunction& progress);
 
 namespace {
 
-/// Occupied cells of the aisle's walls in one slice of 0.2 m along it, from floor to ceiling.
+/// Occupied voxels of the aisle's walls in one slice of 0.2 m along it, from floor to ceiling.
 int occupied_at(const Mapper& mapper, std::int32_t x) {
   int count = 0;
   for (std::int32_t y = -5; y <= 4; ++y) {
     for (std::int32_t z = 0; z <= 12; ++z) {
-      const QuantizedLogOdds cell = mapper.map().log_odds({x, y, z});
-      count += mapper.config().occupancy.classify(cell) == Occupancy::kOccupied ? 1 : 0;
+      const QuantizedLogOdds voxel = mapper.map().log_odds({x, y, z});
+      count += mapper.config().occupancy.classify(voxel) == Occupancy::kOccupied ? 1 : 0;
     }
   }
   return count;
@@ -30,10 +30,10 @@ int occupied_at(const Mapper& mapper, std::int32_t x) {
 /// From the start of the flight, where the far end is 12 m away: one second of it.
 Expected<ExperimentResult> run_aisle(const ProgressFunction& progress) {
   constexpr std::size_t kFrames = 30;
-  constexpr std::int32_t kFarEnd = 59;  // the door at 12 m, and a cell before it
+  constexpr std::int32_t kFarEnd = 59;  // the door at 12 m, and a voxel before it
   ExperimentResult result;
-  Figure figure{"aisle", "Occupied cells along the aisle", "distance [m]", "occupied cells"};
-  std::vector<int> far_cells;
+  Figure figure{"aisle", "Occupied voxels along the aisle", "distance [m]", "occupied voxels"};
+  std::vector<int> far_voxels;
   std::string got;
   for (const int n : {1, 4, 8, 16}) {
     MapperConfig config = thesis_config();
@@ -43,13 +43,13 @@ Expected<ExperimentResult> run_aisle(const ProgressFunction& progress) {
     const auto mapper = map_of("sim:aisle", config, kFrames, progress);
     if (!mapper) return tl::make_unexpected(mapper.error());
     Curve curve{fmt::format("n = {}", n), {}, false};
-    far_cells.push_back(0);
+    far_voxels.push_back(0);
     for (std::int32_t x = 5; x < 62; ++x) {
       const int count = occupied_at(*mapper, x);
       curve.points.emplace_back(0.2 * x + 0.1, count);
-      far_cells.back() += x >= kFarEnd ? count : 0;
+      far_voxels.back() += x >= kFarEnd ? count : 0;
     }
-    got += fmt::format("{}{} (n = {})", got.empty() ? "" : ", ", far_cells.back(), n);
+    got += fmt::format("{}{} (n = {})", got.empty() ? "" : ", ", far_voxels.back(), n);
     figure.curves.push_back(std::move(curve));
     if (n == 1 || n == 16) {
       result.figures.push_back(layer_figure(*mapper, {{-5, -8, 6}, {62, 7, 6}},
@@ -58,8 +58,8 @@ Expected<ExperimentResult> run_aisle(const ProgressFunction& progress) {
     }
   }
   result.figures.insert(result.figures.begin(), std::move(figure));
-  const bool is_falling = far_cells[0] > far_cells[2] && far_cells[2] > far_cells[3];
-  result.checks.push_back({"occupied cells at the far end, from 11.8 m on",
+  const bool is_falling = far_voxels[0] > far_voxels[2] && far_voxels[2] > far_voxels[3];
+  result.checks.push_back({"occupied voxels at the far end, from 11.8 m on",
                            "they drop out as n grows to 8 and 16", got, is_falling});
   return result;
 }

@@ -29,7 +29,7 @@ Both scores_of(const ScoreReport& report, std::string_view name, double worst) {
 
 }  // namespace
 
-/// The flight of the demo, three images a second, in cells of 0.1 m, judged by the scene. The
+/// The flight of the demo, three images a second, in voxels of 0.1 m, judged by the scene. The
 /// default model is held to what the thesis expects; what its own reaches stands beside it.
 Expected<ExperimentResult> run_apartment(const ProgressFunction& progress) {
   constexpr const char* kFlight = "sim:apartment?rate=3";
@@ -45,11 +45,11 @@ Expected<ExperimentResult> run_apartment(const ProgressFunction& progress) {
   ExperimentResult result;
   result.figures = {layer_figure(*mapper, {{-4, -4, 13}, {104, 84, 13}}, "apartment",
                                  "The flat at camera height, 1.3 m")};
-  const Both recall = scores_of(*report, "occupied recall, within 1 cell", 0.0);
+  const Both recall = scores_of(*report, "occupied recall, within 1 voxel", 0.0);
   const Both corners = scores_of(*report, "corner angles off, mean", 90.0);
-  const Both straight = scores_of(*report, "wall columns within half a cell of their line", 0.0);
+  const Both straight = scores_of(*report, "wall columns within half a voxel of their line", 0.0);
   result.checks = {
-      {"the map matches the floor plan", "98 % of the seen surface within a cell",
+      {"the map matches the floor plan", "98 % of the seen surface within a voxel",
        fmt::format("{:.2f} % (thesis's model: {:.2f} %)", 100.0 * recall.ours,
                    100.0 * recall.thesis),
        recall.ours >= 0.98},
@@ -57,7 +57,7 @@ Expected<ExperimentResult> run_apartment(const ProgressFunction& progress) {
        fmt::format("off by {:.2f} deg on average (thesis's model: {:.2f} deg)", corners.ours,
                    corners.thesis),
        corners.ours <= 1.0},
-      {"walls straight and solid", "80 % of their columns within half a cell of a line",
+      {"walls straight and solid", "80 % of their columns within half a voxel of a line",
        fmt::format("{:.1f} % (thesis's model: {:.1f} %)", 100.0 * straight.ours,
                    100.0 * straight.thesis),
        straight.ours >= 0.8}};

@@ -15,8 +15,8 @@ Expected<ExperimentResult> run_small_box(const ProgressFunction& progress);
 
 namespace {
 
-// Cells of 0.2 m; the camera hovers in the middle of cell 0 along x and z, on the boundary of the
-// cells -1 and 0 along y. The faces of both boxes are at x = 2.1 m, the wall is at 3.6 m.
+// Voxels of 0.2 m; the camera hovers in the middle of voxel 0 along x and z, on the boundary of the
+// voxels -1 and 0 along y. The faces of both boxes are at x = 2.1 m, the wall is at 3.6 m.
 constexpr std::int32_t kFace = 10;
 constexpr std::int32_t kWall = 18;
 constexpr std::size_t kFrames = 100;
@@ -24,17 +24,17 @@ constexpr std::size_t kFrames = 100;
 std::vector<int> occupied_in_row(const Mapper& mapper, std::int32_t x) {
   std::vector<int> found;
   for (int y = -8; y < 8; ++y) {
-    const QuantizedLogOdds cell = mapper.map().log_odds({x, y, 0});
-    if (mapper.config().occupancy.classify(cell) == Occupancy::kOccupied) found.push_back(y);
+    const QuantizedLogOdds voxel = mapper.map().log_odds({x, y, 0});
+    if (mapper.config().occupancy.classify(voxel) == Occupancy::kOccupied) found.push_back(y);
   }
   return found;
 }
 
-/// How many cells behind the box, up to the wall, are not exactly unknown.
+/// How many voxels behind the box, up to the wall, are not exactly unknown.
 int known_behind(const Mapper& mapper) {
   int known = 0;
   for (std::int32_t x = kFace + 2; x <= kWall + 1; ++x) {
-    for (const int y : {-1, 0}) known += mapper.map().log_odds({x, y, 0}) != kUnknownCell ? 1 : 0;
+    for (const int y : {-1, 0}) known += mapper.map().log_odds({x, y, 0}) != kUnknownVoxel ? 1 : 0;
   }
   return known;
 }
@@ -42,7 +42,7 @@ int known_behind(const Mapper& mapper) {
 Figure axis_figure(const Mapper& mapper, const std::string& name) {
   Figure figure{name + "_axis", "Belief along the optical axis (127: unknown)", "distance [m]",
                 "belief [0 .. 255]"};
-  Curve curve{"cells on the axis", {}, false};
+  Curve curve{"voxels on the axis", {}, false};
   for (std::int32_t x = 1; x < 26; ++x)
     curve.points.emplace_back(0.2 * x, mapper.map().log_odds({x, 0, 0}));
   figure.curves = {std::move(curve)};
@@ -50,10 +50,10 @@ Figure axis_figure(const Mapper& mapper, const std::string& name) {
 }
 
 Check width_check(const Mapper& mapper) {
-  const auto cells = occupied_in_row(mapper, kFace);
-  return {"width of the box", "exactly 2 occupied cells, -1 and 0",
-          fmt::format("{} occupied: {}", cells.size(), fmt::join(cells, ", ")),
-          cells == std::vector<int>{-1, 0}};
+  const auto voxels = occupied_in_row(mapper, kFace);
+  return {"width of the box", "exactly 2 occupied voxels, -1 and 0",
+          fmt::format("{} occupied: {}", voxels.size(), fmt::join(voxels, ", ")),
+          voxels == std::vector<int>{-1, 0}};
 }
 
 Check axis_check(const Mapper& mapper) {
@@ -84,10 +84,10 @@ Expected<ExperimentResult> run_large_box(const ProgressFunction& progress) {
   };
   const bool is_free = claim(-2) == Occupancy::kFree && claim(1) == Occupancy::kFree;
   result.checks.push_back(
-      {"outer cells, with 3.5 cm of box each", "free", is_free ? "free" : "not free", is_free});
+      {"outer voxels, with 3.5 cm of box each", "free", is_free ? "free" : "not free", is_free});
   const int known = known_behind(*mapper);
-  result.checks.push_back({"the wall behind the box", "hidden: all cells at 127",
-                           fmt::format("{} cells known", known), known == 0});
+  result.checks.push_back({"the wall behind the box", "hidden: all voxels at 127",
+                           fmt::format("{} voxels known", known), known == 0});
   return result;
 }
 
@@ -97,7 +97,7 @@ Expected<ExperimentResult> run_small_box(const ProgressFunction& progress) {
   ExperimentResult result = common(*mapper, "small_box");
   const int known = known_behind(*mapper);
   result.checks.push_back(
-      {"the wall behind the box", "partly seen", fmt::format("{} cells known", known), known > 0});
+      {"the wall behind the box", "partly seen", fmt::format("{} voxels known", known), known > 0});
   return result;
 }
 

@@ -41,9 +41,9 @@ Figure layer_figure(const Mapper& mapper, const Layer& layer, std::string name, 
   Figure figure{std::move(name), std::move(title), "x [m]", "y [m]"};
   figure.x0 = first.x();
   figure.y0 = first.y();
-  figure.cell = c;
+  figure.voxel = c;
   for (std::int32_t y = layer.first.y; y <= layer.last.y; ++y) {
-    std::vector<double>& row = figure.cells.emplace_back();
+    std::vector<double>& row = figure.voxels.emplace_back();
     for (std::int32_t x = layer.first.x; x <= layer.last.x; ++x)
       row.push_back(mapper.map().log_odds({x, y, layer.first.z}));
   }

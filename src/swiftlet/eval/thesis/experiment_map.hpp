@@ -18,7 +18,7 @@ namespace swiftlet::eval {
 [[nodiscard]] Expected<Mapper> map_of(const std::string& address, const MapperConfig& config,
                                       std::size_t frames, const ProgressFunction& progress);
 
-/// The cells of a map in the layer of height z, between two corners, as a figure.
+/// The voxels of a map in the layer of height z, between two corners, as a figure.
 struct Layer {
   VoxelIndex first, last;
 };

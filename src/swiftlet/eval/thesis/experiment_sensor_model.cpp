@@ -18,7 +18,7 @@ Expected<ExperimentResult> run_sensor_model(const ProgressFunction& /*progress*/
   const InverseSensorModel model({});
   ExperimentResult result;
   Figure figure{"sensor_model", "Occupancy by a reading, at 1, 2, 4 and 8 m",
-                "distance of the cell behind the reading [m]", "probability of occupied"};
+                "distance of the voxel behind the reading [m]", "probability of occupied"};
   for (const double z_m : {1.0, 2.0, 4.0, 8.0}) {
     Curve curve{fmt::format("reading at {} m", z_m), {}, false};
     for (double d_m = -1.0; d_m <= 1.0; d_m += 0.005) {

@@ -7,13 +7,13 @@
 #include "swiftlet/eval/thesis/experiment.hpp"
 
 // An experiment is one file, which ends in run_<name>(), and one line here.
-#define SWIFTLET_EXPERIMENTS(X)                                                                \
-  X(large_box, "a box of 47 cm, 2 m ahead: two cells wide, the wall behind hidden (fig. 4.6)") \
-  X(small_box, "a box of 25 cm, 2 m ahead: two cells wide, the wall partly seen (fig. 4.9)")   \
-  X(aisle, "a narrow aisle with n = 1, 4, 8, 16: far cells drop out as n grows")               \
-  X(apartment, "a hand-held scan of a flat against its floor plan")                            \
-  X(noise, "RMS error on a wall against distance: theory and test (figs. 3.5 to 3.9)")         \
-  X(sensor_model, "the inverse sensor model at several distances (chapter 3)")                 \
+#define SWIFTLET_EXPERIMENTS(X)                                                                 \
+  X(large_box, "a box of 47 cm, 2 m ahead: two voxels wide, the wall behind hidden (fig. 4.6)") \
+  X(small_box, "a box of 25 cm, 2 m ahead: two voxels wide, the wall partly seen (fig. 4.9)")   \
+  X(aisle, "a narrow aisle with n = 1, 4, 8, 16: far voxels drop out as n grows")               \
+  X(apartment, "a hand-held scan of a flat against its floor plan")                             \
+  X(noise, "RMS error on a wall against distance: theory and test (figs. 3.5 to 3.9)")          \
+  X(sensor_model, "the inverse sensor model at several distances (chapter 3)")                  \
   X(times, "function and mapping times on this machine (tables 4.2 and 4.3)")
 
 namespace swiftlet::eval {

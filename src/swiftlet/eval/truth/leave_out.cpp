@@ -11,7 +11,7 @@
 namespace swiftlet::eval {
 namespace {
 
-/// Whether a ray meets an occupied cell more than two cells, along any axis, from its end.
+/// Whether a ray meets an occupied voxel more than two voxels, along any axis, from its end.
 bool is_blocked(const Claims& claims, const GridRay& ray, const VoxelIndex& end) {
   constexpr std::int32_t kOwn = 2;
   const auto is_own = [&](const VoxelIndex& v) {
@@ -21,7 +21,7 @@ bool is_blocked(const Claims& claims, const GridRay& ray, const VoxelIndex& end)
   if (clip.is_empty()) return false;
   GridWalk walk(ray, claims.box(), clip);
   do {
-    if (claims.at(walk.cell()) == Occupancy::kOccupied) return !is_own(walk.cell());
+    if (claims.at(walk.voxel()) == Occupancy::kOccupied) return !is_own(walk.voxel());
   } while (walk.advance());
   return false;
 }
@@ -44,14 +44,14 @@ void append_readings(const Frame& frame, const PreprocessOptions& range, int str
 
 VoxelBox box_around(std::span<const SightLine> lines, double voxel_m) {
   SWIFTLET_REQUIRE(!lines.empty(), "there is nothing to put a box around");
-  constexpr double kMargin_cells = 3.0;
+  constexpr double kMargin_voxels = 3.0;
   Eigen::Vector3f least = lines.front().eye_m;
   Eigen::Vector3f most = least;
   for (const SightLine& line : lines) {
     least = least.cwiseMin(line.eye_m).cwiseMin(line.point_m);
     most = most.cwiseMax(line.eye_m).cwiseMax(line.point_m);
   }
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kMargin_cells * voxel_m);
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kMargin_voxels * voxel_m);
   return {voxel_containing(least.cast<double>() - margin, voxel_m),
           voxel_containing(most.cast<double>() + margin, voxel_m)};
 }

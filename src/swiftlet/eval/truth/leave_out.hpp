@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "swiftlet/eval/truth/cell_grid.hpp"
+#include "swiftlet/eval/truth/dense_grid.hpp"
 #include "swiftlet/eval/truth/sight_line.hpp"
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/preprocess/depth_step.hpp"
@@ -17,8 +17,8 @@ namespace swiftlet::eval {
 /// truth.
 struct Consistency {
   std::size_t points = 0;   ///< readings of the frames that were left out
-  std::size_t met = 0;      ///< of these, with an occupied cell within one cell
-  std::size_t blocked = 0;  ///< of these, whose ray meets an occupied cell more than two before
+  std::size_t met = 0;      ///< of these, with an occupied voxel within one voxel
+  std::size_t blocked = 0;  ///< of these, whose ray meets an occupied voxel more than two before
 
   [[nodiscard]] double met_share() const { return of_all(met); }
   [[nodiscard]] double blocked_share() const { return of_all(blocked); }
@@ -36,7 +36,7 @@ struct Consistency {
 void append_readings(const Frame& frame, const PreprocessOptions& range, int stride_px,
                      std::vector<SightLine>& lines);
 
-/// The box of cells around lines of sight. REQUIRES: lines not empty.
+/// The box of voxels around lines of sight. REQUIRES: lines not empty.
 [[nodiscard]] VoxelBox box_around(std::span<const SightLine> lines, double voxel_m);
 
 [[nodiscard]] Consistency consistency_of(const Claims& claims, std::span<const SightLine> lines,

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "swiftlet/eval/truth/object_cells.hpp"
+#include "swiftlet/eval/truth/object_voxels.hpp"
 
 namespace swiftlet::eval {
 namespace {
@@ -43,33 +43,33 @@ std::vector<sim::Object> movers_at(const sim::Scene& scene, Nanoseconds since_st
   return moved;
 }
 
-std::vector<VoxelIndex> swept_cells(const sim::Scene& scene, double voxel_m, const VoxelBox& box) {
+std::vector<VoxelIndex> swept_voxels(const sim::Scene& scene, double voxel_m, const VoxelBox& box) {
   constexpr Nanoseconds kStep = std::chrono::milliseconds(50);
   if (scene.movers.empty()) return {};
-  CellGrid<std::uint8_t> is_swept(box, 0);
+  DenseGrid<std::uint8_t> is_swept(box, 0);
   const auto mark = [&](const VoxelIndex& v) {
     if (box.contains(v)) is_swept.at(v) = 1;
     return false;  // go on
   };
   for (Nanoseconds t{0}; t <= scene.flight.duration(); t += kStep) {
     for (const sim::Object& object : movers_at(scene, t)) {
-      for_each_held_cell(object, voxel_m, box,
-                         [&](const VoxelIndex& v, Holds) { (void)any_within(v, 1, mark); });
+      for_each_held_voxel(object, voxel_m, box,
+                          [&](const VoxelIndex& v, Holds) { (void)any_within(v, 1, mark); });
     }
   }
   std::vector<VoxelIndex> swept;
-  is_swept.for_each([&](const VoxelIndex& v, std::uint8_t mark_of_cell) {
-    if (mark_of_cell != 0) swept.push_back(v);
+  is_swept.for_each([&](const VoxelIndex& v, std::uint8_t mark_of_voxel) {
+    if (mark_of_voxel != 0) swept.push_back(v);
   });
   return swept;
 }
 
 void see_movers(const std::vector<sim::Object>& movers, std::span<const SightLine> lines,
                 double voxel_m, MoverSights& sights) {
-  std::ranges::fill(sights.cells(), MoverSight::kNothing);
-  CellGrid<Holds> held(sights.box(), Holds::kNothing);
+  std::ranges::fill(sights.voxels(), MoverSight::kNothing);
+  DenseGrid<Holds> held(sights.box(), Holds::kNothing);
   for (const sim::Object& object : movers) {
-    for_each_held_cell(object, voxel_m, sights.box(), [&](const VoxelIndex& v, Holds holds) {
+    for_each_held_voxel(object, voxel_m, sights.box(), [&](const VoxelIndex& v, Holds holds) {
       held.at(v) = std::max(held.at(v), holds);
     });
   }
@@ -83,7 +83,7 @@ void see_movers(const std::vector<sim::Object>& movers, std::span<const SightLin
     const VoxelIndex end = voxel_containing(deeper, 1.0);
     GridWalk walk(ray, sights.box(), clip);
     do {
-      const VoxelIndex v = walk.cell();
+      const VoxelIndex v = walk.voxel();
       if (v == end) {
         if (held.at(v) == Holds::kSolid) sights.at(v) = MoverSight::kMatter;
       } else if (held.at(v) == Holds::kNothing) {

@@ -8,9 +8,9 @@
 namespace swiftlet::eval {
 
 void Reactions::observe(const MoverSights& sights, const Claims& claims) {
-  const auto cells = states_.cells();
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    observe(cells[i], sights.cells()[i], claims.cells()[i]);
+  const auto voxels = states_.voxels();
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+    observe(voxels[i], sights.voxels()[i], claims.voxels()[i]);
   last_claims_ = claims;
   last_sights_ = sights;
 }
@@ -56,10 +56,10 @@ std::size_t Reactions::freed() const {
 std::size_t Reactions::ghosts() const {
   std::size_t count = 0;
   for (std::size_t i = 0; i < last_claims_.size(); ++i) {
-    const Phase phase = states_.cells()[i].phase;
+    const Phase phase = states_.voxels()[i].phase;
     const bool was_there = phase == Phase::kThere || phase == Phase::kGoing;
-    const bool is_there = last_sights_.cells()[i] == MoverSight::kMatter;
-    const bool is_claimed = last_claims_.cells()[i] == Occupancy::kOccupied;
+    const bool is_there = last_sights_.voxels()[i] == MoverSight::kMatter;
+    const bool is_claimed = last_claims_.voxels()[i] == Occupancy::kOccupied;
     count += was_there && !is_there && is_claimed ? 1 : 0;
   }
   return count;

@@ -5,16 +5,16 @@
 
 #include <vector>
 
-#include "swiftlet/eval/truth/cell_grid.hpp"
+#include "swiftlet/eval/truth/dense_grid.hpp"
 #include "swiftlet/eval/truth/movers.hpp"
 
 namespace swiftlet::eval {
 
-/// How soon a map notices that something has come into a cell and that it has gone.
+/// How soon a map notices that something has come into a voxel and that it has gone.
 ///
-/// Frames are counted in which the cell is seen: until it is occupied from the first one that shows
-/// matter in it, and until it is free from the first one that looks through it again. Something
-/// that passes within fewer than kJudgedAfter frames is not held against the map.
+/// Frames are counted in which the voxel is seen: until it is occupied from the first one that
+/// shows matter in it, and until it is free from the first one that looks through it again.
+/// Something that passes within fewer than kJudgedAfter frames is not held against the map.
 class Reactions {
  public:
   static constexpr int kJudgedAfter = 3;
@@ -26,30 +26,30 @@ class Reactions {
   /// One frame: what is there, and what the map claims after it.
   void observe(const MoverSights& sights, const Claims& claims);
 
-  /// Frames until occupied, of each cell that something came into and that was noticed.
+  /// Frames until occupied, of each voxel that something came into and that was noticed.
   [[nodiscard]] const std::vector<int>& until_occupied() const { return until_occupied_; }
-  /// Frames until free, of each cell that was occupied and that something left.
+  /// Frames until free, of each voxel that was occupied and that something left.
   [[nodiscard]] const std::vector<int>& until_free() const { return until_free_; }
-  /// Cells that were free within kFreedWithin frames, and those that were not, be they free later
+  /// Voxels that were free within kFreedWithin frames, and those that were not, be they free later
   /// or never.
   [[nodiscard]] std::size_t freed() const;
   [[nodiscard]] std::size_t not_freed() const { return not_freed_; }
-  /// Cells that showed matter for kJudgedAfter frames or more and never became occupied.
+  /// Voxels that showed matter for kJudgedAfter frames or more and never became occupied.
   [[nodiscard]] std::size_t missed() const { return missed_; }
-  /// Cells that are still occupied by what has gone: looked through since, or never seen again.
+  /// Voxels that are still occupied by what has gone: looked through since, or never seen again.
   [[nodiscard]] std::size_t ghosts() const;
 
  private:
   enum class Phase : std::uint8_t { kEmpty, kComing, kThere, kGoing };
   struct State {
     Phase phase = Phase::kEmpty;
-    int frames = 0;  // of the phase in which the cell was seen
+    int frames = 0;  // of the phase in which the voxel was seen
   };
   void observe(State& state, MoverSight sight, Occupancy claim);
 
-  CellGrid<State> states_;
-  CellGrid<Occupancy> last_claims_;
-  CellGrid<MoverSight> last_sights_;
+  DenseGrid<State> states_;
+  DenseGrid<Occupancy> last_claims_;
+  DenseGrid<MoverSight> last_sights_;
   std::vector<int> until_occupied_;
   std::vector<int> until_free_;
   std::size_t missed_ = 0, not_freed_ = 0;

@@ -32,29 +32,29 @@ void count_up(std::uint16_t& counter) {
 }  // namespace
 
 Truth::Truth(std::vector<sim::Object> objects, double voxel_m, const VoxelBox& box)
-    : voxel_m_(voxel_m), objects_(std::move(objects)), cells_(box, CellTruth{}) {
+    : voxel_m_(voxel_m), objects_(std::move(objects)), voxels_(box, VoxelTruth{}) {
   std::vector<std::uint16_t> by_thickness(objects_.size());
   for (std::size_t i = 0; i < objects_.size(); ++i) by_thickness[i] = to<std::uint16_t>(i);
-  // The thinnest solid thing names the cell: a chair leg counts, not the floor it stands on.
+  // The thinnest solid thing names the voxel: a chair leg counts, not the floor it stands on.
   std::ranges::stable_sort(by_thickness, std::ranges::greater{}, [this](std::uint16_t i) {
     return is_sheet(objects_[i]) ? std::numeric_limits<double>::infinity()
                                  : thickness_of(objects_[i]);
   });
   for (const std::uint16_t i : by_thickness) {
-    for_each_held_cell(objects_[i], voxel_m, box, [&](const VoxelIndex& v, Holds holds) {
-      CellTruth& cell = cells_.at(v);
+    for_each_held_voxel(objects_[i], voxel_m, box, [&](const VoxelIndex& v, Holds holds) {
+      VoxelTruth& voxel = voxels_.at(v);
       if (holds == Holds::kSolid && lies_on_another(v, i)) holds = Holds::kSliver;
-      if (holds < cell.holds) return;
-      cell.holds = holds;
-      cell.object = i;
+      if (holds < voxel.holds) return;
+      voxel.holds = holds;
+      voxel.object = i;
     });
   }
 }
 
 bool Truth::lies_on_another(const VoxelIndex& v, std::uint16_t object) const {
   const auto is_thicker = [&](const VoxelIndex& n) {
-    if (!cells_.contains(n) || cells_.at(n).holds != Holds::kSolid) return false;
-    const sim::Object& other = objects_[cells_.at(n).object];
+    if (!voxels_.contains(n) || voxels_.at(n).holds != Holds::kSolid) return false;
+    const sim::Object& other = objects_[voxels_.at(n).object];
     return is_sheet(other) || thickness_of(other) >= voxel_m_;
   };
   constexpr std::array<VoxelIndex, 3> kSteps{VoxelIndex{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -73,29 +73,29 @@ void Truth::add(const SightLine& line) {
   const Eigen::Vector3d point = line.point_m.cast<double>() / voxel_m_;
   const Eigen::Vector3d deeper = point + 0.25 * (point - eye).normalized();
   const GridRay ray{eye, deeper};
-  const Clip clip = clip_to_box(ray, cells_.box());
+  const Clip clip = clip_to_box(ray, voxels_.box());
   if (clip.is_empty()) return;
   if (lines_++ % kKeepEvery == 0) kept_.push_back(line);
   const VoxelIndex end = voxel_containing(deeper, 1.0);
   const VoxelIndex surface = voxel_containing(point, 1.0);
-  GridWalk walk(ray, cells_.box(), clip);
+  GridWalk walk(ray, voxels_.box(), clip);
   do {
-    CellTruth& cell = cells_.at(walk.cell());
-    if (walk.cell() == end) {
-      count_up(cell.hits);
-    } else if (walk.cell() != surface) {
-      count_up(cell.through);
+    VoxelTruth& voxel = voxels_.at(walk.voxel());
+    if (walk.voxel() == end) {
+      count_up(voxel.hits);
+    } else if (walk.voxel() != surface) {
+      count_up(voxel.through);
     }
   } while (walk.advance());
 }
 
-void Truth::mark_swept(const VoxelIndex& cell) {
-  if (cells_.contains(cell)) cells_.at(cell).is_swept = true;
+void Truth::mark_swept(const VoxelIndex& voxel) {
+  if (voxels_.contains(voxel)) voxels_.at(voxel).is_swept = true;
 }
 
 std::string Truth::name_at(const VoxelIndex& v) const {
   if (!holds_matter(v)) return "nothing";
-  const sim::Object& object = objects_[cells_.at(v).object];
+  const sim::Object& object = objects_[voxels_.at(v).object];
   std::string name = object.name.empty() ? "object without a name" : object.name;
   const auto* cylinder = std::get_if<sim::Cylinder>(&object.shape);
   if (cylinder == nullptr || cylinder->diameter_m >= voxel_m_) return name;
@@ -104,9 +104,9 @@ std::string Truth::name_at(const VoxelIndex& v) const {
 
 bool Truth::is_never_seen(const VoxelIndex& v) const {
   return !any_within(v, 1, [this](const VoxelIndex& n) {
-    if (!cells_.contains(n)) return false;
-    const CellTruth& cell = cells_.at(n);
-    return cell.through > 0 || cell.hits > 0 || cell.is_swept;
+    if (!voxels_.contains(n)) return false;
+    const VoxelTruth& voxel = voxels_.at(n);
+    return voxel.through > 0 || voxel.hits > 0 || voxel.is_swept;
   });
 }
 

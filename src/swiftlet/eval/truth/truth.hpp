@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "swiftlet/eval/truth/cell_grid.hpp"
-#include "swiftlet/eval/truth/object_cells.hpp"
+#include "swiftlet/eval/truth/dense_grid.hpp"
+#include "swiftlet/eval/truth/object_voxels.hpp"
 #include "swiftlet/eval/truth/sight.hpp"
 #include "swiftlet/sim/scene.hpp"
 
 namespace swiftlet::eval {
 
-/// What is true of one cell.
-struct CellTruth {
+/// What is true of one voxel.
+struct VoxelTruth {
   Holds holds = Holds::kNothing;
   bool is_swept = false;           ///< something that moves is there at some time
   std::uint16_t object = 0xffffU;  ///< what it holds: index into the scene's objects
@@ -27,38 +27,38 @@ struct CellTruth {
 /// the poses that were flown.
 class Truth {
  public:
-  /// A cell counts as seen after so many lines of sight.
+  /// A voxel counts as seen after so many lines of sight.
   static constexpr std::uint16_t kEnoughLines = 4;
 
-  /// The static objects of a scene. What is thinner than a cell and lies on something thicker, as a
-  /// rug on a floor, adds a sliver to the cells before it. REQUIRES: at most 65535 objects.
+  /// The static objects of a scene. What is thinner than a voxel and lies on something thicker, as
+  /// a rug on a floor, adds a sliver to the voxels before it. REQUIRES: at most 65535 objects.
   Truth(std::vector<sim::Object> objects, double voxel_m, const VoxelBox& box);
 
-  /// Books a line of sight. It ends a quarter of a cell behind the surface, so that one on the
-  /// boundary of two cells is seen in the solid one.
+  /// Books a line of sight. It ends a quarter of a voxel behind the surface, so that one on the
+  /// boundary of two voxels is seen in the solid one.
   void add(const SightLine& line);
-  /// Marks a cell as one where something moves at some time: static scores leave it out.
-  void mark_swept(const VoxelIndex& cell);
+  /// Marks a voxel as one where something moves at some time: static scores leave it out.
+  void mark_swept(const VoxelIndex& voxel);
 
   [[nodiscard]] double voxel_m() const { return voxel_m_; }
-  [[nodiscard]] const CellGrid<CellTruth>& cells() const { return cells_; }
+  [[nodiscard]] const DenseGrid<VoxelTruth>& voxels() const { return voxels_; }
   [[nodiscard]] const std::vector<sim::Object>& objects() const { return objects_; }
-  /// The name of what a cell holds.
+  /// The name of what a voxel holds.
   [[nodiscard]] std::string name_at(const VoxelIndex& v) const;
 
   /// Any matter at all; nothing outside the box.
   [[nodiscard]] bool holds_matter(const VoxelIndex& v) const {
-    return cells_.contains(v) && cells_.at(v).holds != Holds::kNothing;
+    return voxels_.contains(v) && voxels_.at(v).holds != Holds::kNothing;
   }
-  /// A solid cell whose surface was seen: a map should call it occupied.
-  [[nodiscard]] static bool is_seen_surface(const CellTruth& c) {
+  /// A solid voxel whose surface was seen: a map should call it occupied.
+  [[nodiscard]] static bool is_seen_surface(const VoxelTruth& c) {
     return c.holds == Holds::kSolid && c.hits >= kEnoughLines && !c.is_swept;
   }
-  /// A cell without any matter that was looked through: a map should call it free.
-  [[nodiscard]] static bool is_seen_empty(const CellTruth& c) {
+  /// A voxel without any matter that was looked through: a map should call it free.
+  [[nodiscard]] static bool is_seen_empty(const VoxelTruth& c) {
     return c.holds == Holds::kNothing && c.through >= kEnoughLines && !c.is_swept;
   }
-  /// Neither the cell nor one of its 26 neighbours was ever seen: a map should call it unknown.
+  /// Neither the voxel nor one of its 26 neighbours was ever seen: a map should call it unknown.
   [[nodiscard]] bool is_never_seen(const VoxelIndex& v) const;
 
   /// A selection of all lines of sight, to be cast through maps.
@@ -69,7 +69,7 @@ class Truth {
 
   double voxel_m_;
   std::vector<sim::Object> objects_;
-  CellGrid<CellTruth> cells_;
+  DenseGrid<VoxelTruth> voxels_;
   std::vector<SightLine> kept_;
   std::size_t lines_ = 0;
 };

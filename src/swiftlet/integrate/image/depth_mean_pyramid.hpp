@@ -15,7 +15,7 @@
 namespace swiftlet {
 
 /// Mean and scatter of the readings in tiles of 2 x 2 pixels, of 4 x 4 and so on: what a whole tile
-/// says about a cell can be told from these, pixel by pixel need not be looked at.
+/// says about a voxel can be told from these, pixel by pixel need not be looked at.
 ///
 /// That holds while the readings scatter like noise or a slope. Across the edge of an object a mean
 /// would lie in the empty space behind it: such a tile takes the depth of one of its parts,

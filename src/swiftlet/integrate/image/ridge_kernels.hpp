@@ -18,13 +18,13 @@ struct RidgeLimits {
   /// A ridge is looked for so far to the sides at least and at most.
   static constexpr float kLeastReach_px = 2.0F, kMostReach_px = 64.0F;
 
-  float half_cell_px;  // at a depth of one unit
+  float half_voxel_px;  // at a depth of one unit
   /// Clearly behind a reading z is what lies farther than z + max(least_behind, this * z^2).
   float least_behind, behind_per_square;
 
-  /// How far to the side half a cell is, for a reading.
+  /// How far to the side half a voxel is, for a reading.
   [[nodiscard]] int reach_px(int z) const {
-    const float reach = std::floor(half_cell_px / static_cast<float>(z)) + 1.0F;
+    const float reach = std::floor(half_voxel_px / static_cast<float>(z)) + 1.0F;
     return static_cast<int>(std::clamp(reach, kLeastReach_px, kMostReach_px));
   }
 };

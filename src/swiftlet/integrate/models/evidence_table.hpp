@@ -14,7 +14,7 @@ namespace swiftlet {
 
 /// The inverse sensor model, tabulated: its mean over readings that scatter.
 ///
-/// A cell counts as a slice of depth (StereoSensor), so what a reading says about it rises from
+/// A voxel counts as a slice of depth (StereoSensor), so what a reading says about it rises from
 /// "free" to the model's peak as the slice's far side comes to the reading, and falls to nothing as
 /// its near side leaves the reading behind. Readings of mean m and scatter s, each of deviation
 /// sigma, say the mean of that over a normal distribution: a function of the distances d of the

@@ -10,7 +10,7 @@
 
 namespace swiftlet {
 
-/// A measurement model with the thin-obstacle filter around it: what is thinner than a cell is not
+/// A measurement model with the thin-obstacle filter around it: what is thinner than a voxel is not
 /// erased by the rays that pass beside it.
 template <std::derived_from<MeasurementModel> Model>
 class ThinObstaclePreserving final : public Model {

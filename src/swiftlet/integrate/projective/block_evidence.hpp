@@ -8,8 +8,8 @@
 
 #include "swiftlet/integrate/image/depth_mean_pyramid.hpp"
 #include "swiftlet/integrate/measurement_model.hpp"
-#include "swiftlet/integrate/projective/cell_list.hpp"
 #include "swiftlet/integrate/projective/range_image_intersector.hpp"
+#include "swiftlet/integrate/projective/voxel_list.hpp"
 #include "swiftlet/map/voxel_block.hpp"
 
 namespace swiftlet {
@@ -23,12 +23,12 @@ struct OctantUpdates {
 /// Where the evidence of one block is put together.
 struct BlockEvidence {
   std::array<FixedSteps, kBlockVoxels> steps;
-  CellList passed, sampled;
+  VoxelList passed, sampled;
 };
 
 /// What one frame says about blocks of the map, cube by cube: where the depth image says the same
-/// about all of a cube, its cells get it at once; elsewhere the cube is halved, down to single
-/// cells, which look at the readings of their image.
+/// about all of a cube, its voxels get it at once; elsewhere the cube is halved, down to single
+/// voxels, which look at the readings of their image.
 class FrameEvidence {
  public:
   FrameEvidence(const CubeView& view, const DepthView& depth, const DepthMeanPyramid& means,
@@ -39,12 +39,12 @@ class FrameEvidence {
   void intersect(const CubeBatch& cubes, UpdateTypes& types) const {
     intersect_cubes(params_, tiles_, cubes, types);
   }
-  /// The eight octants, `edge` cells wide, of a cube of this type. What passes a cube passes
+  /// The eight octants, `edge` voxels wide, of a cube of this type. What passes a cube passes
   /// its octants: those of a free one need no look.
   void intersect_octants(const CubeInView& cube, int edge, UpdateType type,
                          OctantUpdates& octants) const;
 
-  /// The evidence for a block of this type. Cells that `known` shows to be surely free may be
+  /// The evidence for a block of this type. Voxels that `known` shows to be surely free may be
   /// left out where they are free. False if there is none.
   bool collect(const BlockIndex& index, UpdateType type, const VoxelBlock* known,
                BlockEvidence& evidence) const;
@@ -53,7 +53,7 @@ class FrameEvidence {
   struct Work;
   void descend(const CubeInView& cube, int edge, int offset, UpdateType type, Work& work) const;
   void look(const CubeInView& cube, Work& work) const;
-  [[nodiscard]] CellCube cells_of(const CubeInView& cube, int edge, int offset) const;
+  [[nodiscard]] VoxelCube voxels_of(const CubeInView& cube, int edge, int offset) const;
 
   const CubeView& view_;
   DepthRangeTiles tiles_;

@@ -20,7 +20,7 @@ using Float3 = std::array<float, 3>;
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// A cube of cells as the camera sees it. Positions are relative to the camera.
+/// A cube of voxels as the camera sees it. Positions are relative to the camera.
 struct CubeInView {
   Float3 p_world;      ///< centre [m, world axes]
   Float3 p_camera;     ///< centre [m, camera axes]
@@ -30,7 +30,7 @@ struct CubeInView {
   [[nodiscard]] float z_far() const { return p_camera[2] + half_camera[2]; }
 };
 
-/// One posed depth image, looked at from the side of the cells. Pixels are those of the reduced
+/// One posed depth image, looked at from the side of the voxels. Pixels are those of the reduced
 /// image: n x n pixels of the full one each.
 class CubeView {
  public:
@@ -41,11 +41,11 @@ class CubeView {
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] const Float3& optical_axis() const { return camera_axis_[2]; }
 
-  /// A cube of `edge` cells a side whose first cell is `first`.
+  /// A cube of `edge` voxels a side whose first voxel is `first`.
   [[nodiscard]] CubeInView cube(const VoxelIndex& first, int edge) const;
   /// Whether the image of a cube before the camera lies within the image, and 1/16 pixel more.
   [[nodiscard]] bool is_inside_image(const CubeInView& cube) const;
-  /// One of the eight octants, `edge` cells wide, of a cube: the bits of `place` tell its side
+  /// One of the eight octants, `edge` voxels wide, of a cube: the bits of `place` tell its side
   /// along x, y and z.
   [[nodiscard]] CubeInView child(const CubeInView& parent, int edge, int place) const {
     const float step = 0.5F * static_cast<float>(edge) * voxel_m_;

@@ -12,14 +12,14 @@
 
 namespace swiftlet {
 
-/// A point on a face of a cell, from the face's middle.
+/// A point on a face of a voxel, from the face's middle.
 struct FaceSample {
   Float3 to;      ///< [m, camera axes]
   float along_j;  ///< [m] along the next of the world's axes after the one across the face
   float along_k;  ///< and along the one after that
 };
 
-/// Where the image of a cell is looked at: points on those of its faces that the camera sees, so
+/// Where the image of a voxel is looked at: points on those of its faces that the camera sees, so
 /// many on each as its share of the image is large. From a point, an axis-aligned cube shows at
 /// most three faces.
 class FaceSamples {
@@ -31,7 +31,7 @@ class FaceSamples {
     return {&places_[first_[i]], first_[i + 1] - first_[i]};
   }
 
-  /// At least `count` samples for cells about p_world [m, relative to the camera]. Each frame puts
+  /// At least `count` samples for voxels about p_world [m, relative to the camera]. Each frame puts
   /// them elsewhere, so that what falls between them in one frame is seen in another.
   void spread(int count, const Float3& p_world, float voxel_m,
               const std::array<Float3, 3>& world_axis, std::uint64_t frame_number);

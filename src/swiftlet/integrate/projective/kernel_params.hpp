@@ -33,11 +33,11 @@ struct ViewParams {
           .unit_m = unit_m};
 }
 
-/// Where the evidence of a measurement model ends, and how much a cell gets that rays pass.
+/// Where the evidence of a measurement model ends, and how much a voxel gets that rays pass.
 ///
-/// A cube of cells that lies farther than a reading's depth + reach_sigma deviations + hidden_m is
+/// A cube of voxels that lies farther than a reading's depth + reach_sigma deviations + hidden_m is
 /// hidden by it; one nearer than its depth - in_front_sigma deviations - passed_m is passed, and
-/// with clear_m instead of passed_m so clearly that its cells get clear_log_odds at once.
+/// with clear_m instead of passed_m so clearly that its voxels get clear_log_odds at once.
 struct ModelParams {
   float hidden_m, passed_m, clear_m;
   float reach_sigma, in_front_sigma;

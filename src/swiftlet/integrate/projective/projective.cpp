@@ -18,10 +18,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Readings of a tile that lie farther apart than this, in cells, are on two sides of an edge.
+/// Readings of a tile that lie farther apart than this, in voxels, are on two sides of an edge.
 constexpr float kMostScatter = 0.35F;
 
-/// The same sum as the rays', from the cell's side (method 6): every cell in view looks up the
+/// The same sum as the rays', from the voxel's side (method 6): every voxel in view looks up the
 /// readings in its image.
 ///
 /// Threads share the cubes of the window, nearest first. Each works out new blocks aside; they go
@@ -91,7 +91,7 @@ class ProjectiveIntegrator final : public Integrator {
   struct BlockUpdate {
     VoxelBlock block;
     BlockIndex index;
-    std::size_t cells;
+    std::size_t voxels;
   };
   struct Worker {
     std::vector<BlockUpdate> updates;
@@ -108,7 +108,7 @@ class ProjectiveIntegrator final : public Integrator {
       } else {
         u.block = *known;
       }
-      u.cells = add_evidence(evidence.steps, rounding_seed(index, frame.frame_number()), u.block);
+      u.voxels = add_evidence(evidence.steps, rounding_seed(index, frame.frame_number()), u.block);
     }
   };
 
@@ -120,7 +120,7 @@ class ProjectiveIntegrator final : public Integrator {
     for (const Worker& w : workers_) {
       for (const BlockUpdate& u : w.updates) {
         map.writable(u.index) = u.block;
-        tally.cells += u.cells;
+        tally.voxels += u.voxels;
       }
       tally.blocks += w.updates.size();
     }

@@ -152,7 +152,7 @@ HWY_INLINE IntLanes types_of(const KernelParams& params, const DepthRangeTiles& 
   const auto is_hidden = hn::Gt(hn::Sub(b.z_near, hn::Set(f, params.model.hidden_m)), reach);
   const auto is_passed = hn::Lt(hn::Add(b.z_far, hn::Set(f, params.model.passed_m)), before);
   const auto is_clear = hn::Lt(hn::Add(b.z_far, hn::Set(f, params.model.clear_m)), before);
-  const auto is_far = hn::Gt(b.z_near, hn::Set(f, kNearCells * params.voxel_m));
+  const auto is_far = hn::Gt(b.z_near, hn::Set(f, kNearVoxels * params.voxel_m));
   const auto has_readings = hn::RebindMask(f, hn::Gt(readings.farthest, hn::Zero(i)));
   const auto has_all = hn::RebindMask(f, hn::Eq(readings.gaps, hn::Zero(i)));
 

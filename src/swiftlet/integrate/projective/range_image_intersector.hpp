@@ -11,7 +11,7 @@
 
 namespace swiftlet {
 
-/// What a frame can say about a cube of cells.
+/// What a frame can say about a cube of voxels.
 enum class UpdateType : std::uint8_t {
   kUnobserved,        ///< out of view, without readings, or hidden behind them
   kFree,              ///< every pixel of its image has a reading that passes it
@@ -19,8 +19,8 @@ enum class UpdateType : std::uint8_t {
   kPossiblyOccupied,  ///< may hold a surface, or is too near to tell
 };
 
-/// Nearer than so many cells, the formula for the area of a cell's image is too rough.
-inline constexpr float kNearCells = 4.0F;
+/// Nearer than so many voxels, the formula for the area of a voxel's image is too rough.
+inline constexpr float kNearVoxels = 4.0F;
 
 /// Cubes of one size that are looked at together.
 struct CubeBatch {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-// What the tile of readings at a sample says about a cell. Included once for every instruction set,
-// so there is no #pragma once but Highway's toggle.
+// What the tile of readings at a sample says about a voxel. Included once for every instruction
+// set, so there is no #pragma once but Highway's toggle.
 #if defined(SWIFTLET_TILE_EVIDENCE_PRIVATE) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWIFTLET_TILE_EVIDENCE_PRIVATE
 #undef SWIFTLET_TILE_EVIDENCE_PRIVATE
@@ -10,13 +10,13 @@
 #define SWIFTLET_TILE_EVIDENCE_PRIVATE
 #endif
 
-#include "swiftlet/integrate/projective/cell_lanes_private.hpp"
+#include "swiftlet/integrate/projective/voxel_lanes_private.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swiftlet::HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 namespace {
 
-/// One sample for each of several cells: where their rays enter them, and the tile they end in.
+/// One sample for each of several voxels: where their rays enter them, and the tile they end in.
 struct Sample {
   FloatLanes z, per_z;
   hn::Mask<Floats> is_inside;  // the image
@@ -35,7 +35,7 @@ HWY_INLINE IntLanes whole_number(FloatLanes x) {
   return hn::BitCast(Ints(), hn::Add(x, hn::Set(Floats(), kWholeNumbers)));
 }
 
-/// With IsInside, all of the cells is known to lie inside the image.
+/// With IsInside, all of the voxels is known to lie inside the image.
 template <bool IsInside>
 HWY_INLINE Sample sample_at(const KernelParams& params, const DepthMeanTiles& tiles,
                             const FloatLanes* face, const Float3& to) {
@@ -81,7 +81,7 @@ HWY_INLINE FloatLanes share_of(IntLanes word) {
   return hn::ConvertTo(Floats(), share);
 }
 
-/// The readings of a tile, for each of several cells.
+/// The readings of a tile, for each of several voxels.
 struct Readings {
   IntLanes code;      // of their depth
   FloatLanes per_z;   // 1 / that [1/m]

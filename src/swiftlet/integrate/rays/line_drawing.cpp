@@ -8,7 +8,7 @@
 
 namespace swiftlet {
 
-/// Method 5, Algorithm 1 with its errata: steps of one cell along the dominant axis, v = ray / max
+/// Method 5, Algorithm 1 with its errata: steps of one voxel along the dominant axis, v = ray / max
 /// |ray_i|, which needs no slope and no sign; the end point is always visited.
 std::size_t trace_line_drawing(const GridRay& ray, const VoxelBox& box, std::span<VoxelIndex> out) {
   const Clip clip = clip_to_box(ray, box);

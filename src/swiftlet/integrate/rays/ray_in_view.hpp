@@ -13,12 +13,12 @@
 
 namespace swiftlet {
 
-/// Depths [m] at which a ray enters and leaves a cell, and how many cells of depth that is.
+/// Depths [m] at which a ray enters and leaves a voxel, and how many voxels of depth that is.
 struct RayIntersection {
-  double z_in_m, z_out_m, length_cells;
+  double z_in_m, z_out_m, length_voxels;
 };
 
-/// A posed camera from the side of its rays, in units of cells along the axes of the world.
+/// A posed camera from the side of its rays, in units of voxels along the axes of the world.
 struct RayGeometry {
   RayGeometry(const DepthView& view, double voxel)
       : intrinsics(view.intrinsics),
@@ -27,15 +27,15 @@ struct RayGeometry {
         optical_axis(R_world_camera.col(2)),
         voxel_m(voxel) {}
 
-  /// Direction [cells, world] per metre of depth of the ray through a pixel.
+  /// Direction [voxels, world] per metre of depth of the ray through a pixel.
   [[nodiscard]] Eigen::Vector3d direction(const PixelOrigin& pixel) const {
     return R_world_camera * intrinsics.back_project(pixel.u, pixel.v, 1.0) / voxel_m;
   }
-  /// Depth [m, camera] of a cell's centre.
+  /// Depth [m, camera] of a voxel's centre.
   [[nodiscard]] double depth_of(const VoxelIndex& c) const {
     return optical_axis.dot(Eigen::Vector3d(c.x + 0.5, c.y + 0.5, c.z + 0.5) - origin) * voxel_m;
   }
-  /// Where a ray crosses a cell; nowhere if it only touches it, as drawn lines do.
+  /// Where a ray crosses a voxel; nowhere if it only touches it, as drawn lines do.
   [[nodiscard]] RayIntersection intersection(const Eigen::Vector3d& direction,
                                              const VoxelIndex& c) const {
     RayIntersection crossed{0.0, std::numeric_limits<double>::infinity(), 0.0};
@@ -47,7 +47,7 @@ struct RayGeometry {
       crossed.z_out_m = std::min(crossed.z_out_m, std::max(a_m, b_m));
     }
     crossed.z_out_m = std::max(crossed.z_in_m, crossed.z_out_m);
-    crossed.length_cells = (crossed.z_out_m - crossed.z_in_m) / voxel_m;
+    crossed.length_voxels = (crossed.z_out_m - crossed.z_in_m) / voxel_m;
     return crossed;
   }
 

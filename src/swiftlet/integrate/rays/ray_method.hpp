@@ -12,14 +12,14 @@
 
 namespace swiftlet {
 
-/// Writes the cells of a ray that lie in the box, in order from `from` to `to`, and returns how
-/// many there are. REQUIRES: out holds at least max_cells(box); all coordinates are finite and
+/// Writes the voxels of a ray that lie in the box, in order from `from` to `to`, and returns how
+/// many there are. REQUIRES: out holds at least max_voxels(box); all coordinates are finite and
 /// within +-2^30.
 using TraceRay = std::size_t (*)(const GridRay& ray, const VoxelBox& box,
                                  std::span<VoxelIndex> out);
 
-/// A ray can cross no more cells of a box than this.
-[[nodiscard]] constexpr std::size_t max_cells(const VoxelBox& box) {
+/// A ray can cross no more voxels of a box than this.
+[[nodiscard]] constexpr std::size_t max_voxels(const VoxelBox& box) {
   const auto side = [](std::int32_t a, std::int32_t b) {
     return static_cast<std::size_t>(b - a) + 2;
   };
@@ -32,7 +32,7 @@ struct RayMethod {
   std::string_view name;
   std::string_view summary;
   TraceRay trace;
-  bool is_exact;  ///< visits every cell that the segment crosses, not only some of them
+  bool is_exact;  ///< visits every voxel that the segment crosses, not only some of them
 };
 
 [[nodiscard]] std::span<const RayMethod> ray_methods();

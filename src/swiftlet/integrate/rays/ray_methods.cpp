@@ -8,10 +8,11 @@
 
 // A ray method is one file, which ends in trace_<name>(), and one line here: name, is_exact,
 // summary.
-#define SWIFTLET_RAY_METHODS(X)                                                   \
-  X(voxel_traversal, true,                                                        \
-    "every cell the ray crosses, face by face; the reference (Amanatides & Woo)") \
-  X(line_drawing, false, "one cell per step along the longest axis; skips corners, a little faster")
+#define SWIFTLET_RAY_METHODS(X)                                                    \
+  X(voxel_traversal, true,                                                         \
+    "every voxel the ray crosses, face by face; the reference (Amanatides & Woo)") \
+  X(line_drawing, false,                                                           \
+    "one voxel per step along the longest axis; skips corners, a little faster")
 
 namespace swiftlet {
 

@@ -11,21 +11,21 @@
 namespace swiftlet {
 namespace {
 
-/// The thesis's way (method 5 and 6): every reading is a ray from the camera through the cell it
-/// was measured in and on to where the model ends; each cell on the way gets what the model says.
+/// The thesis's way (method 5 and 6): every reading is a ray from the camera through the voxel it
+/// was measured in and on to where the model ends; each voxel on the way gets what the model says.
 class RayIntegrator final : public Integrator {
  public:
   RayIntegrator(TraceRay trace, double logodds_per_step) : trace_(trace), sums_(logodds_per_step) {}
 
   [[nodiscard]] std::size_t memory_bytes() const override {
-    return sums_.memory_bytes() + cells_.capacity() * sizeof(VoxelIndex);
+    return sums_.memory_bytes() + voxels_.capacity() * sizeof(VoxelIndex);
   }
 
  private:
   IntegrationTally fuse(const DepthView& view, const StereoSensor& /*sensor*/,
                         MeasurementModel& model, RollingMap& map) override {
     const VoxelBox box = voxel_box(map.window());
-    cells_.resize(max_cells(box));
+    voxels_.resize(max_voxels(box));
     sums_.begin(map.window());
     const RayGeometry geometry(view, map.voxel_m());
 
@@ -40,7 +40,7 @@ class RayIntegrator final : public Integrator {
         ++tally.readings;
       }
     }
-    tally.cells = sums_.apply(view.frame_number, map);
+    tally.voxels = sums_.apply(view.frame_number, map);
     tally.blocks = sums_.touched_blocks();
     return tally;
   }
@@ -48,13 +48,13 @@ class RayIntegrator final : public Integrator {
   void add_reading(const RayInView& ray, const MeasurementModel& model, const VoxelBox& box) {
     const Eigen::Vector3d& from = ray.geometry.origin;
     const double z_end_m = model.ray_end_m(ray.z_m);
-    const std::size_t n = trace_({from, from + z_end_m * ray.direction}, box, cells_);
-    model.add_ray(ray, {cells_.data(), n}, sums_);
+    const std::size_t n = trace_({from, from + z_end_m * ray.direction}, box, voxels_);
+    model.add_ray(ray, {voxels_.data(), n}, sums_);
   }
 
   TraceRay trace_;
   EvidenceSums sums_;
-  std::vector<VoxelIndex> cells_;  // of one ray
+  std::vector<VoxelIndex> voxels_;  // of one ray
 };
 
 }  // namespace

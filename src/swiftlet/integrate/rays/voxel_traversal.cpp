@@ -5,7 +5,7 @@
 
 namespace swiftlet {
 
-/// Method 5, Algorithm 2 (Amanatides & Woo 1987): every cell that the ray crosses.
+/// Method 5, Algorithm 2 (Amanatides & Woo 1987): every voxel that the ray crosses.
 std::size_t trace_voxel_traversal(const GridRay& ray, const VoxelBox& box,
                                   std::span<VoxelIndex> out) {
   const Clip clip = clip_to_box(ray, box);
@@ -13,7 +13,7 @@ std::size_t trace_voxel_traversal(const GridRay& ray, const VoxelBox& box,
   GridWalk walk(ray, box, clip);
   std::size_t count = 0;
   do {
-    out[count++] = walk.cell();
+    out[count++] = walk.voxel();
   } while (walk.advance());
   return count;
 }

@@ -16,17 +16,17 @@ namespace swiftlet {
 
 /// Lets go of what has left and of what nothing is seen behind.
 ///
-/// Somebody who walked through the view leaves his cells occupied. Where a wall stands behind him,
+/// Somebody who walked through the view leaves his voxels occupied. Where a wall stands behind him,
 /// readings clear them; where nothing does, the camera reports nothing, and they would stay for
-/// ever. So a cell above unknown loses belief while it is in view and within range, no reading of
+/// ever. So a voxel above unknown loses belief while it is in view and within range, no reading of
 /// its image lies at it or before it, and part of its image has none: from surely occupied to
 /// unknown in decay_s, and never beyond unknown. What is hidden, out of view or seen keeps its
 /// value or is the integrator's.
 ///
-/// Eight steps or more at once, the same for all cells; what is left is carried on. Time is that of
-/// the stamps of each camera; one frame counts for a quarter of decay_s at most, so that no single
-/// drop-out clears anything. Real time: allocates only while images grow. The same bits on every
-/// machine and on any number of threads: it runs on one.
+/// Eight steps or more at once, the same for all voxels; what is left is carried on. Time is that
+/// of the stamps of each camera; one frame counts for a quarter of decay_s at most, so that no
+/// single drop-out clears anything. Real time: allocates only while images grow. The same bits on
+/// every machine and on any number of threads: it runs on one.
 class OccupancyDecay {
  public:
   /// REQUIRES: decay_s > 0.
@@ -40,7 +40,7 @@ class OccupancyDecay {
     double max_range_m;   ///< beyond it there are no readings
   };
 
-  /// After the integrator. Returns how many cells lost belief.
+  /// After the integrator. Returns how many voxels lost belief.
   std::size_t apply(const DepthView& view, const Moment& moment, RollingMap& map);
 
  private:

@@ -17,17 +17,17 @@ constexpr int kTile = DepthRangePyramid::kTile << kLevel;
 
 ThinObstacleFilter::ThinObstacleFilter()
     : image_(static_cast<int>(RidgeLimits::kMostReach_px) + kTile), slots_(kSlots) {
-  touched_.reserve(kMostCells);
+  touched_.reserve(kMostVoxels);
 }
 
-void ThinObstacleFilter::add(const VoxelIndex& cell, const RollingMap& map) {
-  std::size_t place = VoxelHash{}(cell) & (kSlots - 1);
-  while (slots_[place].frame == frame_ && slots_[place].cell != cell)
+void ThinObstacleFilter::add(const VoxelIndex& voxel, const RollingMap& map) {
+  std::size_t place = VoxelHash{}(voxel) & (kSlots - 1);
+  while (slots_[place].frame == frame_ && slots_[place].voxel != voxel)
     place = (place + 1) & (kSlots - 1);
   Slot& slot = slots_[place];
   if (slot.frame != frame_) {
-    if (touched_.size() == kMostCells) return;  // all there is looks thin: nothing is
-    slot = {cell, frame_, 0, map.log_odds(cell)};
+    if (touched_.size() == kMostVoxels) return;  // all there is looks thin: nothing is
+    slot = {voxel, frame_, 0, map.log_odds(voxel)};
     touched_.push_back(static_cast<std::uint32_t>(place));
   }
   ++slot.hits;
@@ -39,8 +39,8 @@ void ThinObstacleFilter::collect(const DepthView& view, const RollingMap& map) {
   const PreprocessedDepth& depth = view.depth;
   const float unit_m = depth.unit_m, voxel_m = static_cast<float>(map.voxel_m());
   const auto fx = static_cast<float>(view.intrinsics.fx()) / static_cast<float>(depth.ratio);
-  limits_ = {.half_cell_px = 0.5F * voxel_m * fx / unit_m,
-             .least_behind = kBehindCells * voxel_m / unit_m,
+  limits_ = {.half_voxel_px = 0.5F * voxel_m * fx / unit_m,
+             .least_behind = kBehindVoxels * voxel_m / unit_m,
              .behind_per_square = kBehindSigma * depth.sigma_per_z2 * depth.noise_left * unit_m};
   const DepthRangeTiles tiles = view.pyramid.tiles();
   if (tiles.levels <= kLevel + 1) return;  // an image of a few pixels
@@ -70,8 +70,8 @@ void ThinObstacleFilter::add_reading(const DepthView& view, int u, int v, const 
   const double z_m = double{view.depth.unit_m} * view.depth.raw.at(u, v);
   const Eigen::Vector3d p_world =
       view.T_world_camera * view.intrinsics.back_project(pixel.u, pixel.v, z_m);
-  const VoxelIndex cell = voxel_containing(p_world, map.voxel_m());
-  if (map.window().contains(block_of(cell))) add(cell, map);
+  const VoxelIndex voxel = voxel_containing(p_world, map.voxel_m());
+  if (map.window().contains(block_of(voxel))) add(voxel, map);
 }
 
 std::size_t ThinObstacleFilter::protect(RollingMap& map) {
@@ -80,8 +80,8 @@ std::size_t ThinObstacleFilter::protect(RollingMap& map) {
     const Slot& slot = slots_[place];
     if (slot.hits < kLeastHits) continue;
     const QuantizedLogOdds least = add_steps(slot.before, kGain);
-    if (map.log_odds(slot.cell) >= least) continue;
-    map.writable(block_of(slot.cell)).cells[offset_in_block(slot.cell)] = least;
+    if (map.log_odds(slot.voxel) >= least) continue;
+    map.writable(block_of(slot.voxel)).voxels[offset_in_block(slot.voxel)] = least;
     ++raised;
   }
   return raised;

@@ -15,11 +15,11 @@ namespace swiftlet::mavlink {
 namespace {
 
 constexpr double kSector_rad = 2 * std::numbers::pi / static_cast<double>(kSectors);
-/// Far above the rounding of angles, far below what matters: a cell on the line between two sectors
-/// counts in both.
+/// Far above the rounding of angles, far below what matters: a voxel on the line between two
+/// sectors counts in both.
 constexpr double kSlack_sectors = 1e-9;
 
-/// Rows of cells, both ends included.
+/// Rows of voxels, both ends included.
 struct Layers {
   int first, last;
 };
@@ -36,7 +36,7 @@ double half_height(const Eigen::Quaterniond& R_world_body, const RingOptions& op
   return 0.5 * options.body_height_m * cos_tilt + options.body_radius_m * sin_tilt;
 }
 
-/// The cells of a column of blocks, seen from above: which are in the way.
+/// The voxels of a column of blocks, seen from above: which are in the way.
 struct ColumnBits {
   std::uint64_t occupied = 0;
   std::uint64_t unknown = 0;
@@ -92,10 +92,10 @@ class Look {
       if (must_be_known) bits.unknown = ~std::uint64_t{0};
       return;
     }
-    const std::uint64_t occupied = cells_at_least(*block, layer, thresholds_.occupied_from);
+    const std::uint64_t occupied = voxels_at_least(*block, layer, thresholds_.occupied_from);
     bits.occupied |= occupied;
     if (must_be_known)
-      bits.unknown |= cells_at_least(*block, layer, thresholds_.free_below) & ~occupied;
+      bits.unknown |= voxels_at_least(*block, layer, thresholds_.free_below) & ~occupied;
   }
 
   void book_column(int block_x, int block_y) {
@@ -103,12 +103,12 @@ class Look {
     for (std::uint64_t left = bits.occupied | bits.unknown; left != 0; left &= left - 1) {
       const int bit = std::countr_zero(left);
       const std::uint64_t mask = left & (~left + 1);
-      book_cell(block_x * kBlockEdge + bit % kBlockEdge, block_y * kBlockEdge + bit / kBlockEdge,
-                (bits.occupied & mask) != 0, (bits.unknown & mask) != 0);
+      book_voxel(block_x * kBlockEdge + bit % kBlockEdge, block_y * kBlockEdge + bit / kBlockEdge,
+                 (bits.occupied & mask) != 0, (bits.unknown & mask) != 0);
     }
   }
 
-  void book_cell(int x, int y, bool is_occupied, bool is_unknown) {
+  void book_voxel(int x, int y, bool is_occupied, bool is_unknown) {
     const Eigen::Vector2d low(x * voxel_m_ - x_m_, y * voxel_m_ - y_m_);
     const Eigen::Vector2d high(low.x() + voxel_m_, low.y() + voxel_m_);
     const double distance_m = low.cwiseMax(-high).cwiseMax(0).norm();

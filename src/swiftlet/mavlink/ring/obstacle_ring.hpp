@@ -23,7 +23,7 @@ struct RingOptions {
   /// Above and below the body: what lies within is in the way, too.
   double margin_m = 0.2;
   double max_m = 12.0;
-  /// Cells that are unknown nearer than this say nothing: no camera sees so near, and the vehicle
+  /// Voxels that are unknown nearer than this say nothing: no camera sees so near, and the vehicle
   /// itself was there.
   double blind_m = 0.8;
 };
@@ -41,7 +41,7 @@ struct ObstacleRing {
   std::array<SectorView, kSectors> sectors{};
 };
 
-/// Looks around. A cell is in the way if it lies at the height of the body or of the margin around
+/// Looks around. A voxel is in the way if it lies at the height of the body or of the margin around
 /// it; a tilted body is taller. It counts for each direction that it covers a part of, at its point
 /// nearest to the body's origin, horizontally. Only at the height of the body itself, without the
 /// margin, must space be known to be called so. What lies outside the map's window is

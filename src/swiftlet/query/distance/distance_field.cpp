@@ -33,11 +33,11 @@ double cap_of(double max_distance_m, double voxel_m) {
 
 Status validate(double voxel_m, const BlockIndex& window, const DistanceFieldOptions& options) {
   if (!(voxel_m > 0.0) || !std::isfinite(voxel_m) || std::min({window.x, window.y, window.z}) < 1)
-    return impossible("the map has no cells", "give the cell and window of a RollingMap");
+    return impossible("the map has no voxels", "give the voxel and window of a RollingMap");
   if (!(options.max_distance_m >= voxel_m) || !std::isfinite(options.max_distance_m))
-    return impossible("max_distance_m is less than a cell", "give at least the map's voxel_m");
+    return impossible("max_distance_m is less than a voxel", "give at least the map's voxel_m");
   if (cap_of(options.max_distance_m, voxel_m) > kMostReach_voxels * kMostReach_voxels)
-    return impossible("max_distance_m is more than 254 cells",
+    return impossible("max_distance_m is more than 254 voxels",
                       fmt::format("give at most {:.3g} m", 254 * voxel_m));
   if (!options.occupied && !options.not_free)
     return impossible("it has no obstacles", "set occupied, not_free or both");
@@ -153,7 +153,7 @@ void DistanceField::update(const MapSnapshot& map, const Eigen::Vector3d& around
 }
 
 void DistanceField::follow(const MapSnapshot& map, const BlockIndex& first) {
-  SWIFTLET_REQUIRE(map.voxel_m() == voxel_m_, "a distance field has the cells of its map");
+  SWIFTLET_REQUIRE(map.voxel_m() == voxel_m_, "a distance field has the voxels of its map");
   const bool is_of_this_map = has_map_ && is_same(map_, map.map_identity());
   if (is_of_this_map && overlap(box(), {first, box().size})) {
     move_to(first);

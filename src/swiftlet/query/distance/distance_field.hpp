@@ -34,7 +34,7 @@ enum class DistanceStatus : std::uint8_t {
 
 /// What the field covers, and what counts as an obstacle.
 struct DistanceFieldOptions {
-  double max_distance_m = 2.0;  ///< the reach: greater distances are this one; <= 255 cells
+  double max_distance_m = 2.0;  ///< the reach: greater distances are this one; <= 255 voxels
   bool occupied = true;         ///< answer for Obstacles::kOccupied
   bool not_free = true;         ///< answer for Obstacles::kNotFree
   /// Distances inside obstacles, too: less than zero, by how deep. Twice the memory and time.
@@ -76,7 +76,7 @@ struct DistanceSample {
 /// DistanceFieldThread for a field that is kept up to date beside its readers.
 class DistanceField {
  public:
-  /// For maps of these cells and of windows of this size (RollingMap::voxel_m() and window()).
+  /// For maps of these voxels and of windows of this size (RollingMap::voxel_m() and window()).
   /// Errors: kInvalidConfig if an option is impossible; kOutOfMemory.
   [[nodiscard]] static Expected<DistanceField> create(double voxel_m, const BlockIndex& window_size,
                                                       const DistanceFieldOptions& options);
@@ -90,7 +90,7 @@ class DistanceField {
   /// whole blocks, and not before the place is three quarters of one off.
   void update(const MapSnapshot& map, const Eigen::Vector3d& around_world);
 
-  /// Edge of a cell [m]
+  /// Edge of a voxel [m]
   [[nodiscard]] double voxel_m() const { return voxel_m_; }
   /// As given.
   [[nodiscard]] const DistanceFieldOptions& options() const { return options_; }

@@ -53,7 +53,7 @@ class DistanceFieldThread {
  public:
   static constexpr int kFields = 3;  ///< one newest, one in work, one held by a slow reader
 
-  /// `reader`: of a map of these cells and of a window of this size (RollingMap::voxel_m(),
+  /// `reader`: of a map of these voxels and of a window of this size (RollingMap::voxel_m(),
   /// window()). Errors: as DistanceField::create().
   [[nodiscard]] static Expected<DistanceFieldThread> start(MapReader reader, double voxel_m,
                                                            const BlockIndex& window_size,

@@ -29,21 +29,21 @@ constexpr std::ptrdiff_t kVector = 16;
 
 ObstacleClasses classes(const VoxelBlock& block, const OccupancyThresholds& thresholds) {
   // The widest vectors there are: each bit is a byte of its own.
-  using Cells = hn::CappedTag<std::uint8_t, 64>;
-  constexpr Cells d;
-  constexpr auto kCells = static_cast<std::size_t>(hn::MaxLanes(Cells()));
+  using Voxels = hn::CappedTag<std::uint8_t, 64>;
+  constexpr Voxels d;
+  constexpr auto kVoxels = static_cast<std::size_t>(hn::MaxLanes(Voxels()));
   const auto from = [](int least) { return static_cast<std::uint8_t>(std::clamp(least, 0, 255)); };
   const auto occupied_from = hn::Set(d, from(thresholds.occupied_from));
   const auto not_free_from = hn::Set(d, from(thresholds.free_below));
   const auto never = hn::FirstN(d, 0);
   ObstacleClasses classes{};
-  for (std::size_t i = 0; i < kBlockVoxels; i += kCells) {
-    const auto cells = hn::LoadU(d, block.cells.data() + i);
-    const auto is_at_least = [&](auto least) { return hn::Eq(hn::Max(cells, least), cells); };
+  for (std::size_t i = 0; i < kBlockVoxels; i += kVoxels) {
+    const auto voxels = hn::LoadU(d, block.voxels.data() + i);
+    const auto is_at_least = [&](auto least) { return hn::Eq(hn::Max(voxels, least), voxels); };
     const auto occupied = thresholds.occupied_from > 255 ? never : is_at_least(occupied_from);
     const auto known = thresholds.free_below > 255 ? never : is_at_least(not_free_from);
     const auto not_free = hn::Or(occupied, known);
-    if constexpr (kCells >= 8) {
+    if constexpr (kVoxels >= 8) {
       hn::StoreMaskBits(d, occupied, classes.occupied.rows.data() + i / 8);
       hn::StoreMaskBits(d, not_free, classes.not_free.rows.data() + i / 8);
     } else {

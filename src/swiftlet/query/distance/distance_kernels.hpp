@@ -81,7 +81,7 @@ struct DistanceArrays {
 
 // The same bits on all vectors: whole numbers only.
 
-/// Which cells of a block are occupied, and which are not free.
+/// Which voxels of a block are occupied, and which are not free.
 [[nodiscard]] ObstacleClasses classes_of(const VoxelBlock& block,
                                          const OccupancyThresholds& thresholds);
 

@@ -20,13 +20,13 @@ VoxelIndex shifted(const VoxelIndex& v, const VoxelIndex& by) {
   return {v.x + by.x, v.y + by.y, v.z + by.z};
 }
 
-/// The cells that belong to no cluster yet, by block.
-class CellsLeft {
+/// The voxels that belong to no cluster yet, by block.
+class VoxelsLeft {
  public:
-  explicit CellsLeft(const FrontierMap& frontier) {
-    frontier.for_each_cell([&](const VoxelIndex& v) { blocks_[block_of(v)][word(v)] |= bit(v); });
+  explicit VoxelsLeft(const FrontierMap& frontier) {
+    frontier.for_each_voxel([&](const VoxelIndex& v) { blocks_[block_of(v)][word(v)] |= bit(v); });
   }
-  /// Takes a cell out; false if it is not there.
+  /// Takes a voxel out; false if it is not there.
   bool take(const VoxelIndex& v) {
     const auto found = blocks_.find(block_of(v));
     if (found == blocks_.end() || (found->second[word(v)] & bit(v)) == 0) return false;
@@ -42,7 +42,7 @@ class CellsLeft {
   std::unordered_map<BlockIndex, BlockBits, BlockHash> blocks_;
 };
 
-/// Grows a box by a cell, unless an edge would be longer than `most` cells.
+/// Grows a box by a voxel, unless an edge would be longer than `most` voxels.
 bool try_include(VoxelBox& box, const VoxelIndex& v, std::int32_t most) {
   VoxelBox larger = box;
   larger.include(v);
@@ -54,35 +54,35 @@ bool try_include(VoxelBox& box, const VoxelIndex& v, std::int32_t most) {
   return true;
 }
 
-/// Moves all cells that hang together with `seed` to the end of `cells`.
-void gather(const VoxelIndex& seed, std::int32_t most, CellsLeft& left,
-            std::vector<VoxelIndex>& cells) {
+/// Moves all voxels that hang together with `seed` to the end of `voxels`.
+void gather(const VoxelIndex& seed, std::int32_t most, VoxelsLeft& left,
+            std::vector<VoxelIndex>& voxels) {
   VoxelBox box{seed, seed};
-  std::size_t next = cells.size();
-  cells.push_back(seed);
-  for (; next < cells.size(); ++next) {
-    const VoxelIndex at = cells[next];
+  std::size_t next = voxels.size();
+  voxels.push_back(seed);
+  for (; next < voxels.size(); ++next) {
+    const VoxelIndex at = voxels[next];
     for (int i = 0; i < 27; ++i) {
       const VoxelIndex v = shifted(at, {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1});
       VoxelBox larger = box;
       if (!try_include(larger, v, most) || !left.take(v)) continue;
       box = larger;
-      cells.push_back(v);
+      voxels.push_back(v);
     }
   }
 }
 
-FrontierCluster describe(const FrontierMap& frontier, const std::vector<VoxelIndex>& cells,
+FrontierCluster describe(const FrontierMap& frontier, const std::vector<VoxelIndex>& voxels,
                          std::size_t first) {
-  FrontierCluster cluster{first, cells.size() - first};
-  for (std::size_t i = first; i < cells.size(); ++i) {
-    cluster.centroid_m += centre_of(cells[i], frontier.voxel_m());
+  FrontierCluster cluster{first, voxels.size() - first};
+  for (std::size_t i = first; i < voxels.size(); ++i) {
+    cluster.centroid_m += centre_of(voxels[i], frontier.voxel_m());
     for (const VoxelIndex& face : kFaces) {
-      if (frontier.is_unknown(shifted(cells[i], face)))
+      if (frontier.is_unknown(shifted(voxels[i], face)))
         cluster.normal += Eigen::Vector3d(face.x, face.y, face.z);
     }
   }
-  cluster.centroid_m /= static_cast<double>(cluster.cell_count);
+  cluster.centroid_m /= static_cast<double>(cluster.voxel_count);
   // Whole numbers: they cancel out exactly or not at all.
   if (!cluster.normal.isZero(0.0)) cluster.normal.normalize();
   return cluster;
@@ -92,16 +92,16 @@ FrontierCluster describe(const FrontierMap& frontier, const std::vector<VoxelInd
 
 FrontierClusters cluster_frontier(const FrontierMap& frontier, const ClusterOptions& options) {
   FrontierClusters result;
-  CellsLeft left(frontier);
+  VoxelsLeft left(frontier);
   const double most = std::clamp(std::floor(options.max_extent_m / frontier.voxel_m()), 1.0, 1e6);
-  frontier.for_each_cell([&](const VoxelIndex& seed) {
+  frontier.for_each_voxel([&](const VoxelIndex& seed) {
     if (!left.take(seed)) return;
-    const std::size_t first = result.cells.size();
-    gather(seed, static_cast<std::int32_t>(most), left, result.cells);
-    if (result.cells.size() - first < options.min_cells) {
-      result.cells.resize(first);
+    const std::size_t first = result.voxels.size();
+    gather(seed, static_cast<std::int32_t>(most), left, result.voxels);
+    if (result.voxels.size() - first < options.min_voxels) {
+      result.voxels.resize(first);
     } else {
-      result.clusters.push_back(describe(frontier, result.cells, first));
+      result.clusters.push_back(describe(frontier, result.voxels, first));
     }
   });
   return result;

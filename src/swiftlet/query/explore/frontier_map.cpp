@@ -29,7 +29,7 @@ void FrontierMap::begin(const MapSnapshot& map) {
   waiting_.clear();
   waiting_.reserve(directory_.entry_count());
   voxel_m_ = map.voxel_m();
-  cell_count_ = 0;
+  voxel_count_ = 0;
 }
 
 void FrontierMap::wait(const BlockIndex& b) {
@@ -48,7 +48,7 @@ void FrontierMap::move_to(const BlockWindow& to) {
   const BlockWindow from = window();
   for_each_block_outside(from, to, [&](const BlockIndex& leaving) {
     Entry& entry = entries_[directory_.entry_of(leaving)];
-    cell_count_ -= entry.cell_count;
+    voxel_count_ -= entry.voxel_count;
     entry = Entry{};
   });
   directory_.move_to(to.first);
@@ -64,15 +64,15 @@ bool FrontierMap::look_at(const BlockIndex& b, const MapSnapshot& map) {
   entry.seen = version;
   BlockBits free{}, unknown{};
   const VoxelBlock* block = map.find(b);
-  const bool is_prior_unknown = thresholds_.classify(kUnknownCell) == Occupancy::kUnknown;
+  const bool is_prior_unknown = thresholds_.classify(kUnknownVoxel) == Occupancy::kUnknown;
   for (int z = 0; z < kBlockEdge; ++z) {
     const auto layer = static_cast<std::size_t>(z);
     if (block == nullptr) {
       unknown[layer] = is_prior_unknown ? ~std::uint64_t{0} : 0;
       continue;
     }
-    const std::uint64_t occupied = cells_at_least(*block, z, thresholds_.occupied_from);
-    const std::uint64_t above_free = cells_at_least(*block, z, thresholds_.free_below);
+    const std::uint64_t occupied = voxels_at_least(*block, z, thresholds_.occupied_from);
+    const std::uint64_t above_free = voxels_at_least(*block, z, thresholds_.free_below);
     free[layer] = ~(occupied | above_free);
     unknown[layer] = above_free & ~occupied;
   }
@@ -108,8 +108,8 @@ void FrontierMap::search(const BlockIndex& b) {
     entry.frontier[z] = entry.free[z] & (left | right | front | back | below | above);
     count += std::popcount(entry.frontier[z]);
   }
-  cell_count_ = cell_count_ - entry.cell_count + static_cast<std::size_t>(count);
-  entry.cell_count = static_cast<std::uint16_t>(count);
+  voxel_count_ = voxel_count_ - entry.voxel_count + static_cast<std::size_t>(count);
+  entry.voxel_count = static_cast<std::uint16_t>(count);
 }
 
 FrontierMap::Work FrontierMap::update(const MapSnapshot& map) {

@@ -15,7 +15,7 @@
 
 namespace swiftlet {
 
-/// Where what is known ends: the free cells with an unknown face neighbour, kept as the map grows.
+/// Where what is known ends: the free voxels with an unknown face neighbour, kept as the map grows.
 ///
 /// Neighbours outside the window do not count: they may have been seen and have left it, so the rim
 /// of the window is no frontier; the window's next move tells.
@@ -30,7 +30,8 @@ class FrontierMap {
 
   /// What an update did.
   struct Work {
-    std::size_t blocks_changed = 0;  ///< blocks with a cell that became free or unknown, or left it
+    std::size_t blocks_changed =
+        0;  ///< blocks with a voxel that became free or unknown, or left it
     std::size_t blocks_searched = 0;  ///< that had changed, or lie beside such
   };
   /// Brings the frontier up to a newer snapshot. A map that was begun anew is noticed by another
@@ -43,16 +44,16 @@ class FrontierMap {
   [[nodiscard]] const OccupancyThresholds& thresholds() const { return thresholds_; }
   /// Of the newest snapshot.
   [[nodiscard]] const BlockWindow& window() const { return directory_.window(); }
-  /// Edge of a cell of the newest snapshot [m]
+  /// Edge of a voxel of the newest snapshot [m]
   [[nodiscard]] double voxel_m() const { return voxel_m_; }
-  /// Cells of the frontier.
-  [[nodiscard]] std::size_t cell_count() const { return cell_count_; }
+  /// Voxels of the frontier.
+  [[nodiscard]] std::size_t voxel_count() const { return voxel_count_; }
 
-  /// The frontier's cells in a block; none outside the window.
-  [[nodiscard]] BlockBits cells_of(const BlockIndex& block) const {
+  /// The frontier's voxels in a block; none outside the window.
+  [[nodiscard]] BlockBits voxels_of(const BlockIndex& block) const {
     return is_within(block) ? entries_[directory_.entry_of(block)].frontier : BlockBits{};
   }
-  /// Whether nothing is known of a cell.
+  /// Whether nothing is known of a voxel.
   [[nodiscard]] bool is_unknown(const VoxelIndex& v) const {
     const BlockIndex block = block_of(v);
     if (!is_within(block)) return false;
@@ -61,13 +62,13 @@ class FrontierMap {
     return (bits[offset / 64U] >> (offset % 64U) & 1U) != 0;
   }
 
-  /// Calls visit(VoxelIndex) for every cell of the frontier, block by block.
+  /// Calls visit(VoxelIndex) for every voxel of the frontier, block by block.
   template <class Visit>
-  void for_each_cell(Visit&& visit) const {
-    if (cell_count_ == 0) return;
+  void for_each_voxel(Visit&& visit) const {
+    if (voxel_count_ == 0) return;
     for_each_block(window(), [&](const BlockIndex& block) {
       const Entry& entry = entries_[directory_.entry_of(block)];
-      if (entry.cell_count == 0) return;
+      if (entry.voxel_count == 0) return;
       for (int z = 0; z < kBlockEdge; ++z) {
         for (auto left = entry.frontier[static_cast<std::size_t>(z)]; left != 0; left &= left - 1)
           visit(voxel_at(block, 64 * z + std::countr_zero(left)));
@@ -83,7 +84,7 @@ class FrontierMap {
     BlockBits free{};
     BlockBits unknown{};  // none until it was seen: as outside the window
     BlockBits frontier{};
-    std::uint16_t cell_count = 0;
+    std::uint16_t voxel_count = 0;
     bool is_waiting = false;
   };
 
@@ -104,7 +105,7 @@ class FrontierMap {
   BlockDirectory directory_;  // only for where entries are
   std::vector<Entry> entries_;
   std::vector<BlockIndex> waiting_;  // to be searched again
-  std::size_t cell_count_ = 0;
+  std::size_t voxel_count_ = 0;
 };
 
 }  // namespace swiftlet

@@ -19,8 +19,8 @@ struct Place {
   int x = 0, y = 0;
 };
 
-/// A flat piece of the map, seen from above: how far each column of cells is from the nearest one
-/// that cannot be flown through. [cells]
+/// A flat piece of the map, seen from above: how far each column of voxels is from the nearest one
+/// that cannot be flown through. [voxels]
 class Plan {
  public:
   Plan(const MapSnapshot& map, const VoxelBox& slab, const RoomOptions& options)
@@ -131,15 +131,15 @@ std::vector<std::size_t> room_around(const Plan& plan, std::size_t from, double 
 }
 
 struct Middle {
-  Eigen::Vector2d at = Eigen::Vector2d::Zero();  // [cells], of centres
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  // [voxels], of centres
   double clearance = 0.0;
 };
 
 Middle middle_of(const Plan& plan, const std::vector<std::size_t>& room) {
-  constexpr double kPlateau_cells = 1.5;
+  constexpr double kPlateau_voxels = 1.5;
   double most = 0.0;
   for (const std::size_t i : room) most = std::max(most, plan.clearance(i));
-  const double least = most - kPlateau_cells;
+  const double least = most - kPlateau_voxels;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double weight = 0.0;
   for (const std::size_t i : room) {
@@ -159,7 +159,7 @@ Middle middle_of(const Plan& plan, const std::vector<std::size_t>& room) {
     nearest = {Eigen::Vector2d(p.x, p.y), plan.clearance(i)};
     nearest_square = square;
   }
-  // The mean itself, finer than a cell, where the plateau is.
+  // The mean itself, finer than a voxel, where the plateau is.
   const bool is_on_plateau = nearest_square <= 0.5;
   if (is_on_plateau) nearest.at = mean;
   return nearest;
@@ -185,13 +185,13 @@ Expected<std::optional<RoomMiddle>> room_middle(const MapSnapshot& map,
   slab.last.z = std::min(slab.last.z, voxel_containing(p_world + up, voxel_m).z);
   const Plan plan(map, slab, options);
   const std::size_t from = plan.at({here.x - slab.first.x, here.y - slab.first.y});
-  // Between centres: the obstacle's face is half a cell nearer.
+  // Between centres: the obstacle's face is half a voxel nearer.
   const auto room = room_around(plan, from, 0.5 * options.door_m / voxel_m + 0.5);
   if (room.empty()) return std::nullopt;
   const Middle middle = middle_of(plan, room);
   const Eigen::Vector2d first(slab.first.x + 0.5, slab.first.y + 0.5);
   const Eigen::Vector2d at_m = voxel_m * (first + middle.at);
-  // Between centres; the obstacle's cell reaches half a diagonal farther, and the mean lies as far
+  // Between centres; the obstacle's voxel reaches half a diagonal farther, and the mean lies as far
   // from the centre that its clearance was measured at.
   const double clearance_m = voxel_m * std::max(0.0, middle.clearance - std::sqrt(2.0));
   return RoomMiddle{{at_m.x(), at_m.y(), p_world.z()},

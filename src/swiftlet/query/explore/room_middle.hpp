@@ -15,7 +15,7 @@ namespace swiftlet {
 /// What counts as a wall, and what as a door.
 struct RoomOptions {
   OccupancyThresholds thresholds{};             ///< where belief becomes a claim
-  UnknownSpace unknown = UnknownSpace::kStops;  ///< kStops: unknown cells bound the room, too
+  UnknownSpace unknown = UnknownSpace::kStops;  ///< kStops: unknown voxels bound the room, too
   double half_height_m = 0.2;                   ///< the slab at flying height reaches up and down
   double door_m = 1.0;                          ///< what is narrower than this parts two rooms
 };
@@ -31,11 +31,11 @@ struct RoomMiddle {
 /// once in place, then ask.
 ///
 /// Not the point of greatest clearance: in an oblong room there are many, from one end to the
-/// other. All cells that have it but for one and a half cells are a plateau along the room; the
+/// other. All voxels that have it but for one and a half voxels are a plateau along the room; the
 /// middle is their mean, weighted by what they have more. Where a room is bent so that the mean
-/// lies outside the plateau, it is the cell of the plateau that is nearest to it. nullopt if the
+/// lies outside the plateau, it is the voxel of the plateau that is nearest to it. nullopt if the
 /// vehicle is in no free space wide enough. Errors: kUsage if a number cannot be used. Cost:
-/// O(cells of a slab of the window x its widest clearance). Allocates.
+/// O(voxels of a slab of the window x its widest clearance). Allocates.
 [[nodiscard]] Expected<std::optional<RoomMiddle>> room_middle(const MapSnapshot& map,
                                                               const Eigen::Vector3d& p_world,
                                                               const RoomOptions& options = {});

@@ -36,9 +36,9 @@ std::size_t ViewGain::walk(const MapSnapshot& map, const Eigen::Vector3d& from,
   std::size_t fresh = 0;
   GridWalk walk(ray, window, clip);
   do {
-    const Occupancy state = thresholds_.classify(map.log_odds(walk.cell()));
+    const Occupancy state = thresholds_.classify(map.log_odds(walk.voxel()));
     if (state == Occupancy::kOccupied) break;
-    if (state == Occupancy::kUnknown && mark(map.window(), walk.cell())) ++fresh;
+    if (state == Occupancy::kUnknown && mark(map.window(), walk.voxel())) ++fresh;
   } while (walk.advance());
   return fresh;
 }

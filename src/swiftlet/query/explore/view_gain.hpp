@@ -13,19 +13,19 @@
 
 namespace swiftlet {
 
-/// What a view would tell: the unknown cells that a camera would see from a pose.
+/// What a view would tell: the unknown voxels that a camera would see from a pose.
 ///
-/// Rays go out over the whole image, no farther apart than a cell at the end of the range; each
-/// passes free and unknown cells up to the first occupied one, the end of the range or the rim of
-/// the window. A cell that many rays cross counts once.
-/// Memory: a bit a cell of the window, kept from question to question. Thread safety: one owner.
+/// Rays go out over the whole image, no farther apart than a voxel at the end of the range; each
+/// passes free and unknown voxels up to the first occupied one, the end of the range or the rim of
+/// the window. A voxel that many rays cross counts once.
+/// Memory: a bit a voxel of the window, kept from question to question. Thread safety: one owner.
 class ViewGain {
  public:
   /// `thresholds`: what counts as matter and as unknown.
   explicit ViewGain(const OccupancyThresholds& thresholds = {}) : thresholds_(thresholds) {}
 
-  /// Unknown cells in sight. Errors: kUsage if the camera is not sound or the pose not finite.
-  /// Cost: O(rays x cells along them): image area in cells at the end of the range.
+  /// Unknown voxels in sight. Errors: kUsage if the camera is not sound or the pose not finite.
+  /// Cost: O(rays x voxels along them): image area in voxels at the end of the range.
   [[nodiscard]] Expected<std::size_t> unknown_in_sight(const MapSnapshot& map,
                                                        const Transform<World, Camera>& T,
                                                        const ViewCamera& camera);

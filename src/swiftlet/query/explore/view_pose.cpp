@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t kMostTried = 32;
 
-std::vector<VoxelIndex> spread(std::span<const VoxelIndex> cells) {
+std::vector<VoxelIndex> spread(std::span<const VoxelIndex> voxels) {
   std::vector<VoxelIndex> some;
-  const std::size_t n = std::min(cells.size(), kMostTried);
-  for (std::size_t i = 0; i < n; ++i) some.push_back(cells[i * cells.size() / n]);
+  const std::size_t n = std::min(voxels.size(), kMostTried);
+  for (std::size_t i = 0; i < n; ++i) some.push_back(voxels[i * voxels.size() / n]);
   return some;
 }
 
@@ -48,13 +48,13 @@ void for_each_candidate(const FrontierCluster& cluster, double range_m, Visit&& 
 
 }  // namespace
 
-std::size_t cells_in_sight(const MapSnapshot& map, std::span<const VoxelIndex> cells,
-                           const Transform<World, Camera>& T_world_camera, const ViewCamera& camera,
-                           const OccupancyThresholds& thresholds) {
+std::size_t voxels_in_sight(const MapSnapshot& map, std::span<const VoxelIndex> voxels,
+                            const Transform<World, Camera>& T_world_camera,
+                            const ViewCamera& camera, const OccupancyThresholds& thresholds) {
   const auto T_camera_world = T_world_camera.inverse();
   std::size_t seen = 0;
-  for (const VoxelIndex& cell : cells) {
-    const Eigen::Vector3d p_world = centre_of(cell, map.voxel_m());
+  for (const VoxelIndex& voxel : voxels) {
+    const Eigen::Vector3d p_world = centre_of(voxel, map.voxel_m());
     if (!camera.covers(T_camera_world * p_world)) continue;
     const RayHit hit = cast_ray(map, T_world_camera.translation(), p_world, thresholds);
     seen += hit.state == Occupancy::kFree ? 1 : 0;
@@ -63,14 +63,14 @@ std::size_t cells_in_sight(const MapSnapshot& map, std::span<const VoxelIndex> c
 }
 
 Expected<std::optional<ViewPose>> find_view(const MapSnapshot& map, const FrontierCluster& cluster,
-                                            std::span<const VoxelIndex> cells,
+                                            std::span<const VoxelIndex> voxels,
                                             const ViewCamera& camera, const BodyShape& body,
                                             const SweepPolicy& policy) {
   if (!camera.is_sound()) {
     return fail(ErrorCode::kUsage, "view", "the camera cannot be used",
                 "give angles below 170 degrees and a range above 0");
   }
-  const std::vector<VoxelIndex> some = spread(cells);
+  const std::vector<VoxelIndex> some = spread(voxels);
   std::optional<ViewPose> best;
   std::optional<Error> error;
   for_each_candidate(cluster, camera.max_range_m, [&](const Transform<World, Body>& T_world_body) {
@@ -84,8 +84,8 @@ Expected<std::optional<ViewPose>> find_view(const MapSnapshot& map, const Fronti
     }
     if (place->state != SweepState::kClear) return true;
     const std::size_t seen =
-        cells_in_sight(map, some, T_world_body * camera.T_body_camera, camera, policy.thresholds);
-    if (seen > (best ? best->cells_seen : 0)) best = ViewPose{T_world_body, seen, some.size()};
+        voxels_in_sight(map, some, T_world_body * camera.T_body_camera, camera, policy.thresholds);
+    if (seen > (best ? best->voxels_seen : 0)) best = ViewPose{T_world_body, seen, some.size()};
     return seen < some.size();
   });
   if (error) return tl::make_unexpected(std::move(*error));

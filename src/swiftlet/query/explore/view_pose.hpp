@@ -17,24 +17,25 @@ namespace swiftlet {
 /// Where to look from, level, and how much of it is seen there.
 struct ViewPose {
   Transform<World, Body> T_world_body;  ///< level, where the body has room
-  std::size_t cells_seen = 0;           ///< of those that were tried
-  std::size_t cells_tried = 0;          ///< of a large cluster, some that are spread evenly over it
+  std::size_t voxels_seen = 0;          ///< of those that were tried
+  std::size_t voxels_tried = 0;         ///< of a large cluster, some that are spread evenly over it
 };
 
-/// How many of these cells the camera sees from a pose: in the image, within range, and with only
-/// free cells on the way. REQUIRES: cells inside the window.
-[[nodiscard]] std::size_t cells_in_sight(const MapSnapshot& map, std::span<const VoxelIndex> cells,
-                                         const Transform<World, Camera>& T_world_camera,
-                                         const ViewCamera& camera,
-                                         const OccupancyThresholds& thresholds);
+/// How many of these voxels the camera sees from a pose: in the image, within range, and with only
+/// free voxels on the way. REQUIRES: voxels inside the window.
+[[nodiscard]] std::size_t voxels_in_sight(const MapSnapshot& map,
+                                          std::span<const VoxelIndex> voxels,
+                                          const Transform<World, Camera>& T_world_camera,
+                                          const ViewCamera& camera,
+                                          const OccupancyThresholds& thresholds);
 
-/// A pose in which the body is clear and the camera sees most of a cluster, the cells tried one by
+/// A pose in which the body is clear and the camera sees most of a cluster, the voxels tried one by
 /// one by rays; nullopt if no candidate sees any. Candidates stand around the cluster at three
 /// distances and heights, those that its normal points away from first; whether there is a way to
 /// them is for the planner to find out.
 /// Errors: kUsage if the camera is not sound; as sweep(). Cost: up to 144 places and 32 rays each.
 [[nodiscard]] Expected<std::optional<ViewPose>> find_view(
-    const MapSnapshot& map, const FrontierCluster& cluster, std::span<const VoxelIndex> cells,
+    const MapSnapshot& map, const FrontierCluster& cluster, std::span<const VoxelIndex> voxels,
     const ViewCamera& camera, const BodyShape& body, const SweepPolicy& policy = {});
 
 }  // namespace swiftlet

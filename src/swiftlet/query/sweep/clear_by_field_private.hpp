@@ -15,12 +15,12 @@ namespace swiftlet {
 /// What a distance field proves about a body that is not larger than a ball around its origin.
 class ClearByField {
  public:
-  /// `ball`: its radius, margin included [cells].
+  /// `ball`: its radius, margin included [voxels].
   ClearByField(const DistanceField& field, Obstacles obstacles, double ball)
       : field_(field), obstacles_(obstacles), ball_(ball) {}
 
   /// How far the ball may move from here, whichever way, and still touch no obstacle; 0 or less
-  /// proves nothing. [cells]
+  /// proves nothing. [voxels]
   [[nodiscard]] double room(const Eigen::Vector3d& p) const {
     const VoxelIndex voxel = voxel_containing(p, 1.0);
     const DistanceAnswer answer = field_.distance(voxel, obstacles_);

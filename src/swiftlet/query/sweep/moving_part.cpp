@@ -15,20 +15,20 @@ constexpr int kRounds = 24;  // far more than most gaps take; what is undecided 
 
 MovingPart make_moving_part(const BodyShape::Part& part, const Eigen::Matrix3d& R,
                             const Eigen::Vector3d& middle, const Eigen::Vector3d& half_move,
-                            double cells_per_m, double extra_radius) {
-  constexpr double kTiny_cells = 1e-9;
+                            double voxels_per_m, double extra_radius) {
+  constexpr double kTiny_voxels = 1e-9;
   MovingPart moving;
-  moving.centre = middle + R * (part.centre_m * cells_per_m);
-  moving.radius = part.radius_m * cells_per_m + extra_radius;
+  moving.centre = middle + R * (part.centre_m * voxels_per_m);
+  moving.radius = part.radius_m * voxels_per_m + extra_radius;
   moving.half[0] = half_move;
   for (std::size_t i = 1; i < moving.half.size(); ++i) {
     const bool is_edge = static_cast<int>(i) <= part.edge_count;
-    moving.half[i] = is_edge ? Eigen::Vector3d(R * (part.half_edges_m[i - 1] * cells_per_m))
+    moving.half[i] = is_edge ? Eigen::Vector3d(R * (part.half_edges_m[i - 1] * voxels_per_m))
                              : Eigen::Vector3d(Eigen::Vector3d::Zero());
   }
   for (std::size_t i = 0; i < moving.half.size(); ++i) {
     moving.square[i] = moving.half[i].squaredNorm();
-    if (moving.square[i] >= kTiny_cells * kTiny_cells) continue;
+    if (moving.square[i] >= kTiny_voxels * kTiny_voxels) continue;
     moving.radius += std::sqrt(moving.square[i]);  // too short to divide by
     moving.square[i] = 0.0;
     moving.half[i].setZero();
@@ -69,7 +69,7 @@ double GapSearch::at_least() const {
 }
 
 bool may_touch(const MovingPart& part, const GridCube& cube) {
-  const double reach = part.radius + kSlack_cells;
+  const double reach = part.radius + kSlack_voxels;
   GapSearch search(part, cube);
   for (int round = 0; round < kRounds; ++round) {
     if (search.at_most() <= reach) return true;
@@ -80,13 +80,13 @@ bool may_touch(const MovingPart& part, const GridCube& cube) {
 }
 
 Gap gap_between(const MovingPart& part, const GridCube& cube, double enough) {
-  constexpr double kExact_cells = 0.01;
+  constexpr double kExact_voxels = 0.01;
   GapSearch search(part, cube);
   double at_least = search.at_least();
   double along = search.along();
   for (int round = 0; round < kRounds; ++round) {
     const bool is_decided = at_least - part.radius >= enough || search.at_most() <= part.radius ||
-                            search.at_most() - at_least < kExact_cells;
+                            search.at_most() - at_least < kExact_voxels;
     if (is_decided) break;
     search.improve();
     along = search.along();

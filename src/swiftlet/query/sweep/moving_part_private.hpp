@@ -12,7 +12,7 @@ namespace swiftlet {
 
 /// A part of a body while it moves straight ahead without turning: all points centre + sum l_i
 /// half_i with -1 <= l_i <= 1, and a ball of `radius` around each. Half edge 0 is the move itself.
-/// In cells of the world grid, as GridRay: a cell's edge is 1.
+/// In voxels of the world grid, as GridRay: a voxel's edge is 1.
 struct MovingPart {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   std::array<Eigen::Vector3d, 4> half{};
@@ -26,16 +26,16 @@ struct MovingPart {
   }
 };
 
-/// What is left undecided for rounding: beyond it, a gap is one. [cells]
-inline constexpr double kSlack_cells = 1e-6;
+/// What is left undecided for rounding: beyond it, a gap is one. [voxels]
+inline constexpr double kSlack_voxels = 1e-6;
 
 /// `R` and `middle` place the body half way along the move, `half_move` leads on to its end.
 [[nodiscard]] MovingPart make_moving_part(const BodyShape::Part& part, const Eigen::Matrix3d& R,
                                           const Eigen::Vector3d& middle,
-                                          const Eigen::Vector3d& half_move, double cells_per_m,
+                                          const Eigen::Vector3d& half_move, double voxels_per_m,
                                           double extra_radius);
 
-/// A cube of the grid: a cell (half edge 0.5) or a block (4). [cells]
+/// A cube of the grid: a voxel (half edge 0.5) or a block (4). [voxels]
 struct GridCube {
   Eigen::Array3d centre;
   double half_edge;
@@ -83,11 +83,11 @@ class GapSearch {
   double square_ = 0.0;            // |outside_|^2
 };
 
-/// Whether part and cube may touch. False is certain; true may be wrong by a small part of a cell.
+/// Whether part and cube may touch. False is certain; true may be wrong by a small part of a voxel.
 [[nodiscard]] bool may_touch(const MovingPart& part, const GridCube& cube);
 
-/// A lower bound of the gap between part (with its radius) and cube, to a hundredth of a cell; what
-/// is `enough` or more is not narrowed down.
+/// A lower bound of the gap between part (with its radius) and cube, to a hundredth of a voxel;
+/// what is `enough` or more is not narrowed down.
 struct Gap {
   double at_least;
   double along;  ///< as GapSearch::along()

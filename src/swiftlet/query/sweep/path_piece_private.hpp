@@ -14,7 +14,7 @@
 
 namespace swiftlet {
 
-/// A part of a path between two poses, and the body that moves along it. [cells]
+/// A part of a path between two poses, and the body that moves along it. [voxels]
 ///
 /// Within a piece, the body is taken to move with the attitude of its middle, and to be larger by
 /// what its turn within the piece moves any of its points at most: a chord of the half turn about
@@ -22,13 +22,13 @@ namespace swiftlet {
 /// exact.
 class PathLeg {
  public:
-  PathLeg(const Transform<World, Body>& from, const Transform<World, Body>& to, double cells_per_m)
-      : from_(from.translation() * cells_per_m),
-        step_((to.translation() - from.translation()) * cells_per_m),
+  PathLeg(const Transform<World, Body>& from, const Transform<World, Body>& to, double voxels_per_m)
+      : from_(from.translation() * voxels_per_m),
+        step_((to.translation() - from.translation()) * voxels_per_m),
         attitude_(from.rotation()),
         end_attitude_(to.rotation()),
         turn_rad_(from.rotation().angularDistance(to.rotation())),
-        cells_per_m_(cells_per_m) {
+        voxels_per_m_(voxels_per_m) {
     // Quaternions are rounded; an angle below this is nothing else.
     constexpr double kNoTurn_rad = 1e-13;
     if (turn_rad_ < kNoTurn_rad) turn_rad_ = 0.0;
@@ -61,7 +61,7 @@ class PathLeg {
   }
   [[nodiscard]] MovingPart moving(const BodyShape::Part& part, const Placement& at,
                                   double extra_radius) const {
-    return make_moving_part(part, at.R, at.middle, at.half_move, cells_per_m_,
+    return make_moving_part(part, at.R, at.middle, at.half_move, voxels_per_m_,
                             extra_radius + at.growth);
   }
 
@@ -71,7 +71,7 @@ class PathLeg {
   Eigen::Quaterniond attitude_;
   Eigen::Quaterniond end_attitude_;
   double turn_rad_;
-  double cells_per_m_;
+  double voxels_per_m_;
 };
 
 /// Calls visit(begin, end) for pieces of a leg within [first, last], in order, until it returns

@@ -50,7 +50,7 @@ Status check_field(const MapSnapshot& map, const SweepPolicy& policy) {
                          field.options().thresholds == policy.thresholds;
   if (!is_of_map) {
     return fail(ErrorCode::kUsage, "sweep",
-                "the field is of another frame, cell or thresholds than the map",
+                "the field is of another frame, voxel or thresholds than the map",
                 "update() it with the same snapshot, or sweep without it");
   }
   // Nothing is known of what lies beyond its box; unknown space stops there all the same.
@@ -65,13 +65,13 @@ Status check_field(const MapSnapshot& map, const SweepPolicy& policy) {
 
 /// Calls visit(leg, number, length so far [m]) along a path; a single pose is a leg without length.
 template <class Visit>
-double for_each_leg(const SweepPath& path, double cells_per_m, Visit&& visit) {
+double for_each_leg(const SweepPath& path, double voxels_per_m, Visit&& visit) {
   double length_m = 0.0;
   const std::size_t legs = std::max<std::size_t>(path.size() - 1, 1);
   for (std::size_t i = 0; i < legs; ++i) {
-    const PathLeg leg(path.pose(i), path.pose(std::min(i + 1, path.size() - 1)), cells_per_m);
+    const PathLeg leg(path.pose(i), path.pose(std::min(i + 1, path.size() - 1)), voxels_per_m);
     visit(leg, i, length_m);
-    length_m += leg.length() / cells_per_m;
+    length_m += leg.length() / voxels_per_m;
   }
   return length_m;
 }
@@ -100,7 +100,7 @@ Expected<SweepAnswer> sweep(const MapSnapshot& map, const BodyShape& body, const
   ContactSearch contacts(scene);
   bool is_searching = true;
   answer.length_m =
-      for_each_leg(path, scene.cells_per_m, [&](const PathLeg& leg, std::size_t i, double so_far) {
+      for_each_leg(path, scene.voxels_per_m, [&](const PathLeg& leg, std::size_t i, double so_far) {
         if (is_searching) is_searching = contacts.follow(leg, i, so_far);
       });
   answer.unknown = contacts.unknown();
@@ -116,7 +116,7 @@ Expected<SweepAnswer> sweep(const MapSnapshot& map, const BodyShape& body, const
   }
   if (policy.clearance_reach_m > 0.0) {
     ClearanceSearch clearance(scene);
-    for_each_leg(path, scene.cells_per_m, [&](const PathLeg& leg, std::size_t, double so_far) {
+    for_each_leg(path, scene.voxels_per_m, [&](const PathLeg& leg, std::size_t, double so_far) {
       clearance.follow(leg, so_far);
     });
     answer.clearance = clearance.answer();

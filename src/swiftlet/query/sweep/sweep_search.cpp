@@ -11,26 +11,26 @@ namespace swiftlet {
 namespace {
 
 // A contact is looked at closer until its piece of the path is so short, and turns move the body by
-// no more. [cells]
-constexpr double kFine_cells = 1.0 / 16.0;
-constexpr double kShortestShare = 1e-12;  // rounding; the cells of a leg are fewer
+// no more. [voxels]
+constexpr double kFine_voxels = 1.0 / 16.0;
+constexpr double kShortestShare = 1e-12;  // rounding; the voxels of a leg are fewer
 
-// The coarse pieces. [cells]
-constexpr double kLongest_cells = 8.0;
-constexpr double kGrowth_cells = 1.0;
+// The coarse pieces. [voxels]
+constexpr double kLongest_voxels = 8.0;
+constexpr double kGrowth_voxels = 1.0;
 
-double longest_piece(double reach) { return std::max(kLongest_cells, 2.0 * reach); }
+double longest_piece(double reach) { return std::max(kLongest_voxels, 2.0 * reach); }
 
 /// The point of a part that lies farthest to one side of an axis, `sign` 1 or -1.
 Eigen::Array3d end_along(const MovingPart& part, Eigen::Index axis, double sign) {
   Eigen::Vector3d end = part.centre;
   for (const Eigen::Vector3d& half : part.half) end += half[axis] * sign < 0.0 ? -half : half;
-  end[axis] += sign * (part.radius + kSlack_cells);
+  end[axis] += sign * (part.radius + kSlack_voxels);
   return end.array();
 }
 
-/// The cell of a part that lies farthest outside the window. REQUIRES: some point of it does.
-VoxelIndex outermost_cell(const MovingPart& part, const VoxelBox& window) {
+/// The voxel of a part that lies farthest outside the window. REQUIRES: some point of it does.
+VoxelIndex outermost_voxel(const MovingPart& part, const VoxelBox& window) {
   const Eigen::Array3d first(window.first.x, window.first.y, window.first.z);
   const Eigen::Array3d end(window.last.x + 1.0, window.last.y + 1.0, window.last.z + 1.0);
   Eigen::Array3d farthest = part.centre.array();
@@ -52,7 +52,7 @@ VoxelIndex outermost_cell(const MovingPart& part, const VoxelBox& window) {
 }  // namespace
 
 Clip SweepScene::near_window(const PathLeg& leg, double extra) const {
-  // One cell more than needed: what rounding leaves out is outside for certain.
+  // One voxel more than needed: what rounding leaves out is outside for certain.
   const double around = std::ceil(reach + extra) + 1.0;
   const auto grow = [&](std::int32_t v, double by) {
     constexpr double kFarthest = 2147483000.0;
@@ -71,14 +71,14 @@ ContactSearch::ContactSearch(const SweepScene& scene) : scene_(scene), wanted_(s
 
 std::optional<ContactSearch::Touch> ContactSearch::touch_of(const MovingPart& part) const {
   const Eigen::Array3d extent = part.half_extent();
-  const TouchedCells cells =
-      touched_cells(part.centre.array() - extent, part.centre.array() + extent, scene_.window);
-  if (wanted_.is_unknown && !cells.is_inside)
-    return Touch{outermost_cell(part, scene_.window), Occupancy::kUnknown};
-  if (!cells.is_any) return std::nullopt;
+  const TouchedVoxels voxels =
+      touched_voxels(part.centre.array() - extent, part.centre.array() + extent, scene_.window);
+  if (wanted_.is_unknown && !voxels.is_inside)
+    return Touch{outermost_voxel(part, scene_.window), Occupancy::kUnknown};
+  if (!voxels.is_any) return std::nullopt;
   std::optional<Touch> found;
-  find_cell(
-      {scene_.map, scene_.policy.thresholds, wanted_}, cells.box,
+  find_voxel(
+      {scene_.map, scene_.policy.thresholds, wanted_}, voxels.box,
       [&](const BlockIndex& block) { return !may_touch(part, cube_of(block)); },
       [&](const VoxelIndex& voxel, Occupancy state) {
         if (!may_touch(part, cube_of(voxel))) return false;
@@ -102,7 +102,7 @@ void ContactSearch::keep(const PathLeg& leg, double share, const Touch& touch) {
   contact.state = touch.state;
   contact.voxel = touch.voxel;
   contact.p_world = centre_of(touch.voxel, scene_.map.voxel_m());
-  contact.path_m = length_so_far_m_ + share * leg.length() / scene_.cells_per_m;
+  contact.path_m = length_so_far_m_ + share * leg.length() / scene_.voxels_per_m;
   contact.leg = number_;
   contact.leg_share = share;
   const bool is_occupied = touch.state == Occupancy::kOccupied;
@@ -116,7 +116,7 @@ void ContactSearch::search(const PathLeg& leg, double begin, double end) {
   if (!found) return;
   const double share = end - begin;
   const bool is_fine =
-      share * leg.length() <= kFine_cells && leg.growth(share, scene_.lever) <= kFine_cells;
+      share * leg.length() <= kFine_voxels && leg.growth(share, scene_.lever) <= kFine_voxels;
   if (is_fine || share < kShortestShare) {
     keep(leg, begin, *found);
     return search(leg, begin, end);  // the other kind may be met here, too
@@ -128,7 +128,7 @@ void ContactSearch::search(const PathLeg& leg, double begin, double end) {
 
 bool ContactSearch::search_pieces(const PathLeg& leg, double begin, double end) {
   return for_each_piece(leg, begin, end, longest_piece(scene_.reach + scene_.margin), scene_.lever,
-                        kGrowth_cells, [&](double from, double to) {
+                        kGrowth_voxels, [&](double from, double to) {
                           search(leg, from, to);
                           return wanted_.is_any();
                         });
@@ -141,7 +141,7 @@ bool ContactSearch::follow(const PathLeg& leg, std::size_t number, double length
   const bool starts_outside = clip.is_empty() || clip.begin > 0.0;
   if (starts_outside && wanted_.is_unknown) {
     keep(leg, 0.0,
-         {voxel_containing(leg.from() / scene_.cells_per_m, scene_.map.voxel_m()),
+         {voxel_containing(leg.from() / scene_.voxels_per_m, scene_.map.voxel_m()),
           Occupancy::kUnknown});
   }
   if (clip.is_empty()) return wanted_.is_any();
@@ -163,24 +163,24 @@ void ClearanceSearch::look_at_rim(const MovingPart& part, double path_m) {
   least_ = gap;
   path_m_ = path_m;
   MovingPart larger = part;
-  larger.radius += gap + 0.5;  // reaches over the rim: its outermost cell is the nearest outside
-  voxel_ = outermost_cell(larger, window);
+  larger.radius += gap + 0.5;  // reaches over the rim: its outermost voxel is the nearest outside
+  voxel_ = outermost_voxel(larger, window);
 }
 
 void ClearanceSearch::search(const PathLeg& leg, double begin, double end, double length_so_far_m) {
   const PathLeg::Placement placement = leg.piece(begin, end, scene_.lever);
   const auto path_at = [&](double share) {
-    return length_so_far_m + share * leg.length() / scene_.cells_per_m;
+    return length_so_far_m + share * leg.length() / scene_.voxels_per_m;
   };
   for (const BodyShape::Part& body_part : scene_.body.parts()) {
     const MovingPart part = leg.moving(body_part, placement, 0.0);
     if (scene_.stopping().is_unknown) look_at_rim(part, path_at(begin));
     const Eigen::Array3d extent = part.half_extent() + least_;
-    const TouchedCells cells =
-        touched_cells(part.centre.array() - extent, part.centre.array() + extent, scene_.window);
-    if (!cells.is_any) continue;
-    find_cell(
-        {scene_.map, scene_.policy.thresholds, scene_.stopping()}, cells.box,
+    const TouchedVoxels voxels =
+        touched_voxels(part.centre.array() - extent, part.centre.array() + extent, scene_.window);
+    if (!voxels.is_any) continue;
+    find_voxel(
+        {scene_.map, scene_.policy.thresholds, scene_.stopping()}, voxels.box,
         [&](const BlockIndex& block) {
           return gap_between(part, cube_of(block), least_).at_least >= least_;
         },
@@ -201,7 +201,7 @@ void ClearanceSearch::follow(const PathLeg& leg, double length_so_far_m) {
   if (clip.is_empty() || clip.begin > 0.0) {
     if (scene_.stopping().is_unknown) {  // somewhere else entirely: nothing is known there
       least_ = 0.0;
-      voxel_ = voxel_containing(leg.from() / scene_.cells_per_m, scene_.map.voxel_m());
+      voxel_ = voxel_containing(leg.from() / scene_.voxels_per_m, scene_.map.voxel_m());
       path_m_ = length_so_far_m;
     }
   }
@@ -214,7 +214,7 @@ void ClearanceSearch::follow(const PathLeg& leg, double length_so_far_m) {
 }
 
 SweepClearance ClearanceSearch::answer() const {
-  return {least_ / scene_.cells_per_m, voxel_, path_m_};
+  return {least_ / scene_.voxels_per_m, voxel_, path_m_};
 }
 
 }  // namespace swiftlet

@@ -5,10 +5,10 @@
 
 #include <optional>
 
-#include "swiftlet/query/sweep/cell_scan_private.hpp"
 #include "swiftlet/query/sweep/clear_by_field_private.hpp"
 #include "swiftlet/query/sweep/path_piece_private.hpp"
 #include "swiftlet/query/sweep/sweep.hpp"
+#include "swiftlet/query/sweep/voxel_scan_private.hpp"
 
 namespace swiftlet {
 
@@ -17,28 +17,28 @@ namespace swiftlet {
   return policy.unknown == UnknownSpace::kStops ? Obstacles::kNotFree : Obstacles::kOccupied;
 }
 
-/// What both searches of a sweep, for contacts and for clearance, know. [cells]
+/// What both searches of a sweep, for contacts and for clearance, know. [voxels]
 struct SweepScene {
   SweepScene(const MapSnapshot& snapshot, const BodyShape& shape, const SweepPolicy& how)
       : map(snapshot),
         body(shape),
         policy(how),
         window(voxel_box(snapshot.window())),
-        cells_per_m(1.0 / snapshot.voxel_m()),
-        lever(shape.lever_m() * cells_per_m),
-        reach(shape.reach_m() * cells_per_m),
-        margin(how.margin_m * cells_per_m) {}
+        voxels_per_m(1.0 / snapshot.voxel_m()),
+        lever(shape.lever_m() * voxels_per_m),
+        reach(shape.reach_m() * voxels_per_m),
+        margin(how.margin_m * voxels_per_m) {}
 
   const MapSnapshot& map;
   const BodyShape& body;
   const SweepPolicy& policy;
   VoxelBox window;
-  double cells_per_m;
+  double voxels_per_m;
   double lever;
   double reach;
   double margin;
 
-  [[nodiscard]] WantedCells stopping() const {
+  [[nodiscard]] WantedVoxels stopping() const {
     return {policy.unknown == UnknownSpace::kStops, true};
   }
   /// The shares of a leg between which the body, larger by `extra`, may touch the window.
@@ -68,7 +68,7 @@ class ContactSearch {
   void keep(const PathLeg& leg, double share, const Touch& touch);
 
   const SweepScene& scene_;
-  WantedCells wanted_;  // what has not been met yet
+  WantedVoxels wanted_;  // what has not been met yet
   std::optional<ClearByField> by_field_;
   std::size_t number_ = 0;
   double length_so_far_m_ = 0.0;
@@ -76,11 +76,11 @@ class ContactSearch {
   std::optional<SweepContact> occupied_;
 };
 
-/// Finds the cell that comes nearest to the body along a path, leg by leg.
+/// Finds the voxel that comes nearest to the body along a path, leg by leg.
 class ClearanceSearch {
  public:
   explicit ClearanceSearch(const SweepScene& scene)
-      : scene_(scene), least_(scene.policy.clearance_reach_m * scene.cells_per_m) {}
+      : scene_(scene), least_(scene.policy.clearance_reach_m * scene.voxels_per_m) {}
 
   void follow(const PathLeg& leg, double length_so_far_m);
   [[nodiscard]] SweepClearance answer() const;

@@ -8,8 +8,8 @@
 
 namespace swiftlet::station {
 
-/// Centres of all occupied cells [m, map] with their byte.
-Bytes occupied_cells(const MapModel& model) {
+/// Centres of all occupied voxels [m, map] with their byte.
+Bytes occupied_voxels(const MapModel& model) {
   constexpr std::uint32_t kStride = 13;
   Bytes points;
   points.reserve(std::size_t{kStride} * model.map().digest().occupied);
@@ -17,10 +17,10 @@ Bytes occupied_cells(const MapModel& model) {
   const double voxel_m = model.map().voxel_m();
   model.map().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
     for (int i = 0; i < kBlockVoxels; ++i) {
-      const QuantizedLogOdds cell = block.cells[static_cast<std::size_t>(i)];
-      if (model.map().scale().classify(cell) != Occupancy::kOccupied) continue;
+      const QuantizedLogOdds voxel = block.voxels[static_cast<std::size_t>(i)];
+      if (model.map().scale().classify(voxel) != Occupancy::kOccupied) continue;
       for (const double v : centre_of(voxel_at(index, i), voxel_m)) point.f32(v);
-      point.u8(cell);
+      point.u8(voxel);
     }
   });
   Bytes message;
@@ -39,26 +39,26 @@ Bytes occupied_cells(const MapModel& model) {
 /// The blocks around the vehicle as a dense grid, as the schema has it: z slowest, x fastest.
 Bytes window_grid(const MapModel& model) {
   constexpr BlockIndex kHalf{4, 4, 2};  // blocks on either side of the vehicle's
-  constexpr std::uint32_t kCellBytes = 5;
+  constexpr std::uint32_t kVoxelBytes = 5;
   const BlockIndex& centre = model.centre();
   const VoxelIndex first =
       first_voxel({centre.x - kHalf.x, centre.y - kHalf.y, centre.z - kHalf.z});
   constexpr std::int32_t kX = (2 * kHalf.x + 1) * kBlockEdge;
   constexpr std::int32_t kY = (2 * kHalf.y + 1) * kBlockEdge;
   constexpr std::int32_t kZ = (2 * kHalf.z + 1) * kBlockEdge;
-  Bytes cells;
-  cells.reserve(std::size_t{kCellBytes} * kX * kY * kZ);
-  const auto write_cell = [&](QuantizedLogOdds cell) {
-    cells.push_back(cell);
-    switch (model.map().scale().classify(cell)) {
+  Bytes voxels;
+  voxels.reserve(std::size_t{kVoxelBytes} * kX * kY * kZ);
+  const auto write_voxel = [&](QuantizedLogOdds voxel) {
+    voxels.push_back(voxel);
+    switch (model.map().scale().classify(voxel)) {
       case Occupancy::kOccupied:
-        cells.insert(cells.end(), {47, 111, 219, 255});
+        voxels.insert(voxels.end(), {47, 111, 219, 255});
         break;
       case Occupancy::kFree:
-        cells.insert(cells.end(), {242, 201, 76, 20});
+        voxels.insert(voxels.end(), {242, 201, 76, 20});
         break;
       case Occupancy::kUnknown:
-        cells.insert(cells.end(), {0, 0, 0, 0});
+        voxels.insert(voxels.end(), {0, 0, 0, 0});
         break;
     }
   };
@@ -69,7 +69,7 @@ Bytes window_grid(const MapModel& model) {
         const VoxelBlock* block = model.map().find(block_of(v));
         const std::size_t row = offset_in_block(v);
         for (std::size_t i = 0; i < kBlockEdge; ++i) {
-          write_cell(block == nullptr ? kUnknownCell : block->cells[row + i]);
+          write_voxel(block == nullptr ? kUnknownVoxel : block->voxels[row + i]);
         }
       }
     }
@@ -83,14 +83,14 @@ Bytes window_grid(const MapModel& model) {
   out.u32(kY);
   out.u32(kX);
   write_vector(out, Eigen::Vector3d::Constant(voxel_m));
-  out.u32(kCellBytes * kX * kY);
-  out.u32(kCellBytes * kX);
-  out.u32(kCellBytes);
+  out.u32(kVoxelBytes * kX * kY);
+  out.u32(kVoxelBytes * kX);
+  out.u32(kVoxelBytes);
   constexpr std::array kFields{Field{"log_odds", 0, kUint8}, Field{"red", 1, kUint8},
                                Field{"green", 2, kUint8}, Field{"blue", 3, kUint8},
                                Field{"alpha", 4, kUint8}};
   write_fields(out, kFields);
-  out.bytes(cells);
+  out.bytes(voxels);
   return message;
 }
 

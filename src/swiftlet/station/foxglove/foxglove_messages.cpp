@@ -148,7 +148,7 @@ Bytes statistics(const MapModel& model) {
       json["stage_ms"][names[i]] = frame->stage_ms[i];
     }
     json["readings"] = frame->readings;
-    json["cells"] = frame->cells;
+    json["voxels"] = frame->voxels;
     json["blocks_left"] = frame->blocks_left;
   }
   const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -161,7 +161,7 @@ std::span<const FoxgloveChannel> foxglove_channels() {
   using Follows = FoxgloveChannel::Follows;
   static constexpr std::array kChannels{
       FoxgloveChannel{"/map/occupied", "foxglove_msgs/PointCloud", Follows::kMap, 2.0,
-                      occupied_cells},
+                      occupied_voxels},
       FoxgloveChannel{"/map/window", "foxglove_msgs/VoxelGrid", Follows::kMap, 1.0, window_grid},
       FoxgloveChannel{"/vehicle", "foxglove_msgs/SceneUpdate", Follows::kFrames, 20.0, vehicle},
       FoxgloveChannel{"/tf", "foxglove_msgs/FrameTransforms", Follows::kFrames, 20.0, transforms},

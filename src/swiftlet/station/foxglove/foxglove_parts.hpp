@@ -53,7 +53,7 @@ inline void write_fields(CdrWriter& out, std::span<const Field> fields) {
   }
 }
 
-[[nodiscard]] Bytes occupied_cells(const MapModel& model);
+[[nodiscard]] Bytes occupied_voxels(const MapModel& model);
 [[nodiscard]] Bytes window_grid(const MapModel& model);
 
 }  // namespace swiftlet::station

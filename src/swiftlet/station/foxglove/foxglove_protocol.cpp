@@ -25,7 +25,7 @@ constexpr std::string_view kStatisticsSchema = R"({"type":"object","properties":
 "frame_count":{"type":"integer"},"memory_bytes":{"type":"integer"},"blocks":{"type":"integer"},
 "occupied":{"type":"integer"},"free":{"type":"integer"},"verdicts":{"type":"object"},
 "lost":{"type":"object"},"stage_ms":{"type":"object"},"readings":{"type":"integer"},
-"cells":{"type":"integer"},"blocks_left":{"type":"integer"}}})";
+"voxels":{"type":"integer"},"blocks_left":{"type":"integer"}}})";
 
 Outgoing text_of(const json& message) {
   const std::string text = message.dump(-1, ' ', false, json::error_handler_t::replace);

@@ -45,7 +45,7 @@ void write_frame(ByteWriter& out, const FrameReport& frame) {
   for (const double v : frame.T_world_camera.rotation().coeffs()) out.f32(v);  // x y z w
   for (const float v : frame.stage_ms) out.f32(v);
   out.u32(frame.readings);
-  out.u32(frame.cells);
+  out.u32(frame.voxels);
   out.u32(frame.blocks_left);
   const auto& camera = frame.intrinsics;
   out.u16(camera ? to<std::uint16_t>(camera->width()) : 0);
@@ -162,7 +162,7 @@ Bytes BlockPacker::blocks_message(const MessageHeader& header, const ClientQueue
       plain.integer(to<std::int16_t>(index.z - base.z));
     }
   }
-  for (const VoxelBlock* block : known) plain.bytes(block->cells);
+  for (const VoxelBlock* block : known) plain.bytes(block->voxels);
   packed_.resize(ZSTD_compressBound(plain_.size()));
   const std::size_t size = ZSTD_compress2(compressor_.get(), packed_.data(), packed_.size(),
                                           plain_.data(), plain_.size());

@@ -11,8 +11,8 @@
 
 namespace swiftlet::station {
 
-/// Tells two maps apart: how many blocks and cells, and a sum of hashes that does not depend on the
-/// order in which the blocks came. Both ends keep it up to date block by block.
+/// Tells two maps apart: how many blocks and voxels, and a sum of hashes that does not depend on
+/// the order in which the blocks came. Both ends keep it up to date block by block.
 struct MapDigest {
   std::uint32_t blocks = 0;
   std::uint32_t occupied = 0;
@@ -23,7 +23,7 @@ struct MapDigest {
 };
 
 /// MurmurHash3_x86_32 (Appleby 2011, public domain) of 524 bytes: x, y, z as little-endian int32,
-/// then the 512 cells. 32-bit words, because JavaScript has no fast 64-bit ones.
+/// then the 512 voxels. 32-bit words, because JavaScript has no fast 64-bit ones.
 [[nodiscard]] constexpr std::uint32_t block_hash(const BlockIndex& index, const VoxelBlock& block,
                                                  std::uint32_t seed) {
   std::uint32_t h = seed;
@@ -36,11 +36,11 @@ struct MapDigest {
   add(static_cast<std::uint32_t>(index.x));
   add(static_cast<std::uint32_t>(index.y));
   add(static_cast<std::uint32_t>(index.z));
-  for (std::size_t i = 0; i < block.cells.size(); i += 4) {
-    add(static_cast<std::uint32_t>(block.cells[i]) |
-        static_cast<std::uint32_t>(block.cells[i + 1]) << 8U |
-        static_cast<std::uint32_t>(block.cells[i + 2]) << 16U |
-        static_cast<std::uint32_t>(block.cells[i + 3]) << 24U);
+  for (std::size_t i = 0; i < block.voxels.size(); i += 4) {
+    add(static_cast<std::uint32_t>(block.voxels[i]) |
+        static_cast<std::uint32_t>(block.voxels[i + 1]) << 8U |
+        static_cast<std::uint32_t>(block.voxels[i + 2]) << 16U |
+        static_cast<std::uint32_t>(block.voxels[i + 3]) << 24U);
   }
   constexpr std::uint32_t kBytes = 3 * 4 + kBlockVoxels;
   h ^= kBytes;

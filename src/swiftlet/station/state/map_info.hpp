@@ -17,8 +17,8 @@
 
 namespace swiftlet::station {
 
-/// What a client must know of a map before its first cell. Numbers in frames and counters stand for
-/// the names here, so that a page shows reasons which it was not written for.
+/// What a client must know of a map before its first voxel. Numbers in frames and counters stand
+/// for the names here, so that a page shows reasons which it was not written for.
 struct MapInfo {
   std::string source;   ///< where the frames or the map come from, for people
   std::string version;  ///< of the program
@@ -50,7 +50,7 @@ struct FrameReport {
   Transform<World, Camera> T_world_camera;
   std::array<float, kMaxStages> stage_ms{};
   std::uint32_t readings = 0;
-  std::uint32_t cells = 0;
+  std::uint32_t voxels = 0;
   std::uint32_t blocks_left = 0;  ///< in view but not fused: the deadline was over
   std::optional<PinholeIntrinsics> intrinsics;
   std::array<std::uint32_t, kMaxLosses> lost{};  ///< so far, by MapInfo::losses

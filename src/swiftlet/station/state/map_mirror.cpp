@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "swiftlet/query/cell_counts.hpp"
+#include "swiftlet/query/voxel_counts.hpp"
 
 namespace swiftlet::station {
 namespace {
@@ -28,16 +28,16 @@ void subtract(MapDigest& sum, const MapDigest& share) {
 }
 
 bool holds_only_unknown(const VoxelBlock& block) {
-  return std::ranges::all_of(block.cells,
-                             [](QuantizedLogOdds cell) { return cell == kUnknownCell; });
+  return std::ranges::all_of(block.voxels,
+                             [](QuantizedLogOdds voxel) { return voxel == kUnknownVoxel; });
 }
 
 }  // namespace
 
 MapDigest MapMirror::share_of(const BlockIndex& index, const VoxelBlock& block) const {
-  CellCounts cells;
-  cells.add(block, scale().thresholds);
-  return {1, static_cast<std::uint32_t>(cells.occupied), static_cast<std::uint32_t>(cells.free),
+  VoxelCounts voxels;
+  voxels.add(block, scale().thresholds);
+  return {1, static_cast<std::uint32_t>(voxels.occupied), static_cast<std::uint32_t>(voxels.free),
           block_hash(index, block, 0), block_hash(index, block, 1)};
 }
 

@@ -7,12 +7,12 @@
 
 // An exporter is one file, which ends in export_<name>(), and one line here: name, ALWAYS
 // or the build option SWIFTLET_WITH_... that it needs, summary.
-#define SWIFTLET_EXPORTERS(X)                                                             \
-  X(ply, ALWAYS,                                                                          \
-    "occupied cells as points with log-odds, coloured by height (CloudCompare, MeshLab)") \
-  X(pcd, ALWAYS, "occupied cells as points, intensity = log-odds (PCL)")                  \
-  X(bt, OCTOMAP, "OctoMap, free and occupied cells")                                      \
-  X(ot, OCTOMAP, "OctoMap with the log-odds of each free and occupied cell")
+#define SWIFTLET_EXPORTERS(X)                                                              \
+  X(ply, ALWAYS,                                                                           \
+    "occupied voxels as points with log-odds, coloured by height (CloudCompare, MeshLab)") \
+  X(pcd, ALWAYS, "occupied voxels as points, intensity = log-odds (PCL)")                  \
+  X(bt, OCTOMAP, "OctoMap, free and occupied voxels")                                      \
+  X(ot, OCTOMAP, "OctoMap with the log-odds of each free and occupied voxel")
 
 namespace swiftlet {
 

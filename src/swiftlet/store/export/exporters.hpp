@@ -23,7 +23,7 @@ using ExportMap = Status (*)(const SavedMap& map, const std::filesystem::path& o
                              const ExportProgress& progress);
 
 /// What is to be added to every point of the PCD of a map [m]: zero but far from the origin, where
-/// floats, the only coordinates that PCL takes, no longer tell cells apart. (PLY has doubles
+/// floats, the only coordinates that PCL takes, no longer tell voxels apart. (PLY has doubles
 /// there.)
 [[nodiscard]] Expected<Eigen::Vector3d> pcd_origin(const SavedMap& map);
 

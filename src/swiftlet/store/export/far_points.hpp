@@ -12,16 +12,16 @@
 
 namespace swiftlet {
 
-/// Whether floats tell the centres of neighbouring cells apart everywhere in a box, with a
-/// hundredth of a cell to spare. Far from the origin they do not: at 900 km floats are 6 cm apart.
+/// Whether floats tell the centres of neighbouring voxels apart everywhere in a box, with a
+/// hundredth of a voxel to spare. Far from the origin they do not: at 900 km floats are 6 cm apart.
 [[nodiscard]] inline bool floats_suffice(const std::optional<VoxelBox>& box) {
-  constexpr double kMostCells = 1 << 17;  // 2^24 of a float's mantissa, over 128
+  constexpr double kMostVoxels = 1 << 17;  // 2^24 of a float's mantissa, over 128
   if (!box) return true;
   const auto far = [](std::int32_t first, std::int32_t last) {
     return std::max(std::abs(static_cast<double>(first)), std::abs(static_cast<double>(last)));
   };
   const auto& [a, b] = *box;
-  return std::max({far(a.x, b.x), far(a.y, b.y), far(a.z, b.z)}) < kMostCells;
+  return std::max({far(a.x, b.x), far(a.y, b.y), far(a.z, b.z)}) < kMostVoxels;
 }
 
 /// A place of whole metres near the middle of a box, to count coordinates from; the origin where

@@ -12,14 +12,14 @@
 namespace swiftlet {
 namespace {
 
-QuantizedLogOdds cell_of(float log_odds, bool is_occupied, const LogOddsScale& scale) {
+QuantizedLogOdds voxel_of(float log_odds, bool is_occupied, const LogOddsScale& scale) {
   const OccupancyThresholds& thresholds = scale.thresholds;
   const float steps = std::round(log_odds / static_cast<float>(scale.logodds_per_step));
   const float kept = std::isfinite(steps) ? std::clamp(steps, -128.0F, 128.0F) : 0.0F;
-  const int cell = kUnknownCell + static_cast<int>(kept);
+  const int voxel = kUnknownVoxel + static_cast<int>(kept);
   return static_cast<QuantizedLogOdds>(
-      is_occupied ? std::clamp(cell, thresholds.occupied_from, int{kOccupiedCell})
-                  : std::clamp(cell, int{kFreeCell}, thresholds.free_below - 1));
+      is_occupied ? std::clamp(voxel, thresholds.occupied_from, int{kOccupiedVoxel})
+                  : std::clamp(voxel, int{kFreeVoxel}, thresholds.free_below - 1));
 }
 
 /// Lays out leaves as long as there is room.
@@ -31,9 +31,9 @@ class BlockFiller {
     // The log-odds of a .bt's leaf are 0.
     const float of_state =
         leaf.is_occupied ? OctomapBlocks::kOccupied_logodds : OctomapBlocks::kFree_logodds;
-    const QuantizedLogOdds cell =
-        cell_of(leaf.log_odds == 0.0F ? of_state : leaf.log_odds, leaf.is_occupied, scale_);
-    leaf.edge < kBlockEdge ? fill_cells(leaf, cell) : fill_blocks(leaf, cell);
+    const QuantizedLogOdds voxel =
+        voxel_of(leaf.log_odds == 0.0F ? of_state : leaf.log_odds, leaf.is_occupied, scale_);
+    leaf.edge < kBlockEdge ? fill_voxels(leaf, voxel) : fill_blocks(leaf, voxel);
   }
   [[nodiscard]] bool is_full() const { return is_full_; }
 
@@ -45,19 +45,19 @@ class BlockFiller {
   }
 
   /// A leaf that is smaller than a block lies within one: both are cut at multiples of their edge.
-  void fill_cells(const OctomapLeaf& leaf, QuantizedLogOdds cell) {
+  void fill_voxels(const OctomapLeaf& leaf, QuantizedLogOdds voxel) {
     VoxelBlock* const target = block(block_of(leaf.first));
     if (target == nullptr) return;
     const VoxelIndex& f = leaf.first;
     for (std::int32_t z = f.z; z < f.z + leaf.edge; ++z) {
       for (std::int32_t y = f.y; y < f.y + leaf.edge; ++y) {
         for (std::int32_t x = f.x; x < f.x + leaf.edge; ++x)
-          target->cells[offset_in_block({x, y, z})] = cell;
+          target->voxels[offset_in_block({x, y, z})] = voxel;
       }
     }
   }
 
-  void fill_blocks(const OctomapLeaf& leaf, QuantizedLogOdds cell) {
+  void fill_blocks(const OctomapLeaf& leaf, QuantizedLogOdds voxel) {
     const std::int32_t edge = leaf.edge / kBlockEdge;
     const auto blocks = static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge) *
                         static_cast<std::uint64_t>(edge);
@@ -67,7 +67,7 @@ class BlockFiller {
       for (std::int32_t y = 0; y < edge; ++y) {
         for (std::int32_t x = 0; x < edge; ++x) {
           VoxelBlock* const target = block({first.x + x, first.y + y, first.z + z});
-          if (target != nullptr) target->cells.fill(cell);
+          if (target != nullptr) target->voxels.fill(voxel);
         }
       }
     }
@@ -89,8 +89,8 @@ Expected<OctomapBlocks> read_octomap_blocks(const std::filesystem::path& path,
   if (!summary) return forward_error(std::move(summary));
   if (filler.is_full()) {
     return fail(ErrorCode::kUnsupported, path.string(),
-                fmt::format("its leaves stand for {:.3g} cells, too many to lay out one by one",
-                            static_cast<double>(summary->free_cells + summary->occupied_cells)),
+                fmt::format("its leaves stand for {:.3g} voxels, too many to lay out one by one",
+                            static_cast<double>(summary->free_voxels + summary->occupied_voxels)),
                 "'swiftlet info' and 'swiftlet compare' read it leaf by leaf");
   }
   out.summary = std::move(*summary);

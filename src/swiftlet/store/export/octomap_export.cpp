@@ -21,7 +21,8 @@
 namespace swiftlet {
 namespace {
 
-/// OctoMap's key of a cell: both grids have a cell face at the origin, so only the offset differs.
+/// OctoMap's key of a voxel: both grids have a voxel face at the origin, so only the offset
+/// differs.
 constexpr std::int32_t kKeyOffset = 32768;
 
 bool has_key(const VoxelIndex& v) {
@@ -34,10 +35,10 @@ octomap::OcTreeKey key_of(const VoxelIndex& v) {
   return {key(v.x), key(v.y), key(v.z)};
 }
 
-/// The cell's log-odds, with the sign of its state: OctoMap takes what is >= 0 for occupied, ours
+/// The voxel's log-odds, with the sign of its state: OctoMap takes what is >= 0 for occupied, ours
 /// has two thresholds.
-float octomap_logodds(QuantizedLogOdds cell, Occupancy state, float per_step) {
-  const float value = static_cast<float>(cell - kUnknownCell) * per_step;
+float octomap_logodds(QuantizedLogOdds voxel, Occupancy state, float per_step) {
+  const float value = static_cast<float>(voxel - kUnknownVoxel) * per_step;
   return state == Occupancy::kOccupied ? std::max(value, per_step) : std::min(value, -per_step);
 }
 
@@ -50,22 +51,22 @@ Expected<std::unique_ptr<octomap::OcTree>> build_tree(const SavedMap& map,
   tree->setClampingThresMax(1.0 - 1e-4);
   bool fits = true;
   auto passed = for_each_known_voxel(
-      map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
+      map, progress, [&](const VoxelIndex& v, QuantizedLogOdds voxel, Occupancy state) {
         fits = fits && has_key(v);
         if (!fits) return;
-        tree->setNodeValue(key_of(v), octomap_logodds(cell, state, per_step), true);
+        tree->setNodeValue(key_of(v), octomap_logodds(voxel, state, per_step), true);
       });
   if (!passed) return forward_error(std::move(passed));
   if (!fits) {
     return fail(ErrorCode::kUnsupported, out.string(),
-                "the map reaches beyond the 65536 cells along each axis that OctoMap has",
+                "the map reaches beyond the 65536 voxels along each axis that OctoMap has",
                 "export it as ply or pcd");
   }
   tree->updateInnerOccupancy();
   return tree;
 }
 
-/// What AbstractOcTree::write() would put first; that function also prints, and rounds the cell
+/// What AbstractOcTree::write() would put first; that function also prints, and rounds the voxel
 /// size to six digits.
 std::string header(std::string_view first_line, const octomap::OcTree& tree) {
   return fmt::format(
@@ -80,7 +81,7 @@ Status export_bt(const SavedMap& map, const std::filesystem::path& out,
                  const ExportProgress& progress) {
   auto tree = build_tree(map, out, progress);
   if (!tree) return forward_error(std::move(tree));
-  (*tree)->toMaxLikelihood();  // reduces each cell to free or occupied
+  (*tree)->toMaxLikelihood();  // reduces each voxel to free or occupied
   (*tree)->prune();
   auto file = OutputFile::create(out, std::array{map.path()});
   if (!file) return forward_error(std::move(file));
@@ -93,7 +94,7 @@ Status export_ot(const SavedMap& map, const std::filesystem::path& out,
                  const ExportProgress& progress) {
   auto tree = build_tree(map, out, progress);
   if (!tree) return forward_error(std::move(tree));
-  (*tree)->prune();  // joins eight equal cells only
+  (*tree)->prune();  // joins eight equal voxels only
   auto file = OutputFile::create(out, std::array{map.path()});
   if (!file) return forward_error(std::move(file));
   file->write(header("# Octomap OcTree file", **tree));

@@ -19,7 +19,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr int kDepth = 16;  // levels of an OctoMap tree, hence 65536 cells along each axis
+constexpr int kDepth = 16;  // levels of an OctoMap tree, hence 65536 voxels along each axis
 constexpr std::int32_t kEdge = 1 << kDepth;
 constexpr std::size_t kColourBytes = 3;  // what a node of a ColorOcTree has besides its log-odds
 constexpr std::string_view kBinaryLine = "# Octomap OcTree binary file";
@@ -93,7 +93,7 @@ class TreeReader {
 
   void emit(const OctomapLeaf& leaf) {
     ++summary_.leaves;
-    (leaf.is_occupied ? summary_.occupied_cells : summary_.free_cells) += leaf.cells();
+    (leaf.is_occupied ? summary_.occupied_voxels : summary_.free_voxels) += leaf.voxels();
     const std::int32_t last = leaf.edge - 1;
     const VoxelIndex& f = leaf.first;
     if (!summary_.bounds) summary_.bounds = VoxelBox{f, f};

@@ -15,14 +15,14 @@
 
 namespace swiftlet {
 
-/// A leaf of an OctoMap tree: a cube of cells of one state.
+/// A leaf of an OctoMap tree: a cube of voxels of one state.
 struct OctomapLeaf {
   VoxelIndex first;
-  std::int32_t edge = 1;  ///< cells along each axis: a power of two, up to 65536
+  std::int32_t edge = 1;  ///< voxels along each axis: a power of two, up to 65536
   bool is_occupied = false;
   float log_odds = 0.0F;  ///< .ot only
 
-  [[nodiscard]] std::uint64_t cells() const {
+  [[nodiscard]] std::uint64_t voxels() const {
     const auto n = static_cast<std::uint64_t>(edge);
     return n * n * n;
   }
@@ -34,8 +34,8 @@ struct OctomapSummary {
   double voxel_m = 0.0;
   std::uint64_t nodes = 0;
   std::uint64_t leaves = 0;
-  std::uint64_t free_cells = 0;  ///< of the finest size
-  std::uint64_t occupied_cells = 0;
+  std::uint64_t free_voxels = 0;  ///< of the finest size
+  std::uint64_t occupied_voxels = 0;
   std::optional<VoxelBox> bounds;
 };
 

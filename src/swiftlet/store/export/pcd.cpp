@@ -20,7 +20,7 @@ Status export_pcd(const SavedMap& map, const std::filesystem::path& out,
   if (!summary) return forward_error(std::move(summary));
   auto file = OutputFile::create(out, std::array{map.path()});
   if (!file) return forward_error(std::move(file));
-  const std::uint64_t points = summary->cells.occupied;
+  const std::uint64_t points = summary->voxels.occupied;
   // PCL takes coordinates as floats and no others; where these do not suffice, their origin moves.
   const Eigen::Vector3d origin_m = point_origin(summary->bounds, map.voxel_m());
   const std::string shift = origin_m.isZero()
@@ -33,10 +33,10 @@ Status export_pcd(const SavedMap& map, const std::filesystem::path& out,
                   "WIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
                   points, shift));
   auto passed = for_each_known_voxel(
-      map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
+      map, progress, [&](const VoxelIndex& v, QuantizedLogOdds voxel, Occupancy state) {
         if (state != Occupancy::kOccupied) return;
         const Eigen::Vector3f p = (centre_of(v, map.voxel_m()) - origin_m).cast<float>();
-        const auto intensity = static_cast<float>(cell);
+        const auto intensity = static_cast<float>(voxel);
         for (const float value : {p.x(), p.y(), p.z(), intensity}) {
           file->write_little_endian(value);
         }

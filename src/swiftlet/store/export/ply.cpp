@@ -34,7 +34,7 @@ Rgb height_colour(double fraction) {
 std::string header(std::uint64_t points, const SavedMap& map, std::string_view coordinate) {
   return fmt::format(
       "ply\nformat binary_little_endian 1.0\n"
-      "comment Swiftlet: centres of occupied cells, {0} m, world frame, z up\n"
+      "comment Swiftlet: centres of occupied voxels, {0} m, world frame, z up\n"
       "element vertex {1}\n"
       "property {2} x\nproperty {2} y\nproperty {2} z\n"
       "property uchar red\nproperty uchar green\nproperty uchar blue\n"
@@ -51,18 +51,18 @@ Status export_ply(const SavedMap& map, const std::filesystem::path& out,
   auto file = OutputFile::create(out, std::array{map.path()});
   if (!file) return forward_error(std::move(file));
   const bool is_float = floats_suffice(summary->bounds);
-  file->write(header(summary->cells.occupied, map, is_float ? "float" : "double"));
+  file->write(header(summary->voxels.occupied, map, is_float ? "float" : "double"));
   const VoxelBox box = summary->bounds.value_or(VoxelBox{});
   const double height = std::max(1, box.last.z - box.first.z);
   auto passed = for_each_known_voxel(
-      map, progress, [&](const VoxelIndex& v, QuantizedLogOdds cell, Occupancy state) {
+      map, progress, [&](const VoxelIndex& v, QuantizedLogOdds voxel, Occupancy state) {
         if (state != Occupancy::kOccupied) return;
         for (const double c : centre_of(v, map.voxel_m())) {
           is_float ? file->write_little_endian(static_cast<float>(c))
                    : file->write_little_endian(c);
         }
         const Rgb colour = height_colour((v.z - box.first.z) / height);
-        for (const std::uint8_t c : {colour.red, colour.green, colour.blue, cell}) {
+        for (const std::uint8_t c : {colour.red, colour.green, colour.blue, voxel}) {
           file->write_little_endian(c);
         }
       });

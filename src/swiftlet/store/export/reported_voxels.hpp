@@ -31,7 +31,7 @@ class BlockProgress {
   const ExportProgress& progress_;
 };
 
-/// Calls visit(VoxelIndex, QuantizedLogOdds, Occupancy) for every free and occupied cell of a map
+/// Calls visit(VoxelIndex, QuantizedLogOdds, Occupancy) for every free and occupied voxel of a map
 /// file, block by block.
 template <class Visit>
 [[nodiscard]] Status for_each_known_voxel(const SavedMap& map, const ExportProgress& progress,

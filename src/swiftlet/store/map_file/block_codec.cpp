@@ -68,7 +68,7 @@ BlockCodec::BlockCodec() : compressor_(ZSTD_createCCtx()), decompressor_(ZSTD_cr
 
 std::span<const std::uint8_t> BlockCodec::compress(const VoxelBlock& block) {
   const std::size_t size = ZSTD_compress2(compressor_.get(), buffer_.data(), buffer_.size(),
-                                          block.cells.data(), block.cells.size());
+                                          block.voxels.data(), block.voxels.size());
   SWIFTLET_REQUIRE(!ZSTD_isError(size), "512 bytes always compress into the bound");
   return {buffer_.data(), size};
 }
@@ -76,9 +76,9 @@ std::span<const std::uint8_t> BlockCodec::compress(const VoxelBlock& block) {
 bool BlockCodec::decompress(std::span<const std::uint8_t> data, VoxelBlock& out) {
   const std::size_t frame = ZSTD_findFrameCompressedSize(data.data(), data.size());
   if (ZSTD_isError(frame) || frame != data.size()) return false;
-  const std::size_t size = ZSTD_decompressDCtx(decompressor_.get(), out.cells.data(),
-                                               out.cells.size(), data.data(), data.size());
-  return !ZSTD_isError(size) && size == out.cells.size();
+  const std::size_t size = ZSTD_decompressDCtx(decompressor_.get(), out.voxels.data(),
+                                               out.voxels.size(), data.data(), data.size());
+  return !ZSTD_isError(size) && size == out.voxels.size();
 }
 
 }  // namespace swiftlet

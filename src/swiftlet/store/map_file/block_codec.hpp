@@ -35,7 +35,7 @@ class BlockCodec {
 
   /// Valid until the next call.
   [[nodiscard]] std::span<const std::uint8_t> compress(const VoxelBlock& block);
-  /// False unless the bytes are one whole frame of exactly 512 cells with a good checksum.
+  /// False unless the bytes are one whole frame of exactly 512 voxels with a good checksum.
   [[nodiscard]] bool decompress(std::span<const std::uint8_t> data, VoxelBlock& out);
 
  private:

@@ -32,8 +32,8 @@ auto corrupt(const std::string& path, std::string what) {
 }
 
 bool is_sane(const OccupancyThresholds& t) {
-  return t.free_below >= 1 && t.free_below <= kUnknownCell && t.occupied_from > kUnknownCell &&
-         t.occupied_from <= kOccupiedCell;
+  return t.free_below >= 1 && t.free_below <= kUnknownVoxel && t.occupied_from > kUnknownVoxel &&
+         t.occupied_from <= kOccupiedVoxel;
 }
 
 /// Older files tell them in their config alone, of which nothing else is read here: its other
@@ -91,7 +91,7 @@ Expected<MapHeader> header_from(const MapMeta& meta, const std::string& path) {
   const auto frames = number_of<std::uint64_t>(meta, "frames");
   if (!voxel_m || !frames || !std::isfinite(*voxel_m) || *voxel_m <= 0.0) {
     return fail(ErrorCode::kCorruptInput, path,
-                "the map does not say its cell size or its number of frames");
+                "the map does not say its voxel size or its number of frames");
   }
   MapHeader header{*voxel_m, {}, *frames};
   auto thresholds = thresholds_from(meta, path);

@@ -24,7 +24,7 @@ namespace swiftlet {
                                                             const std::string& path);
 
 /// The place that the text of `start_m` tells: three numbers with blanks between; nullopt if that
-/// is no place where a map with cells of `voxel_m` can be.
+/// is no place where a map with voxels of `voxel_m` can be.
 [[nodiscard]] std::optional<Eigen::Vector3d> place_from(std::string_view text, double voxel_m);
 
 /// Writes the lines that tell a header, over those that are there. What it does not tell (0 frames,

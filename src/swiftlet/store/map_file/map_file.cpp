@@ -63,7 +63,7 @@ std::optional<std::string> fault_of(const BlockRow& row, BlockCodec& codec, Voxe
   };
   if (!row.is_intact()) return of_block("is damaged: its checksum differs");
   if (!is_sane(b.x) || !is_sane(b.y) || !is_sane(b.z)) return of_block("lies outside the world");
-  if (!codec.decompress(row.data, out)) return of_block("does not decompress to 512 cells");
+  if (!codec.decompress(row.data, out)) return of_block("does not decompress to 512 voxels");
   return std::nullopt;
 }
 

@@ -191,7 +191,7 @@ bool MapPages::append_overflow(std::uint32_t next, std::uint64_t size, std::uint
   return true;
 }
 
-/// Fills `whole` with the record whose cell begins at `at`, which moves to where its bytes begin.
+/// Fills `whole` with the record whose voxel begins at `at`, which moves to where its bytes begin.
 bool MapPages::read_record(Bytes page, bool is_index, std::size_t& at, std::uint32_t& budget,
                            std::vector<std::uint8_t>& whole) const {
   const auto size = variable_number(page, at);
@@ -214,10 +214,10 @@ void MapPages::visit_page(std::uint32_t number, Bytes bytes, std::uint32_t& budg
   const bool is_index = type == kInnerIndex || type == kLeafIndex;
   Page page{number, 0, is_inner, !is_inner && !is_index && type != kLeafTable};
   const std::size_t pointers = start + (is_inner ? 12 : 8);
-  const std::size_t cells = page.is_damaged ? 0 : number_at(bytes, start + 3, 2);
+  const std::size_t voxels = page.is_damaged ? 0 : number_at(bytes, start + 3, 2);
   if (is_inner) page.last_child = number_at(bytes, start + 8, 4);
   std::vector<std::uint8_t> whole;
-  for (std::size_t i = 0; i < cells && type != kInnerTable; ++i) {
+  for (std::size_t i = 0; i < voxels && type != kInnerTable; ++i) {
     if (pointers + 2 * i + 2 > kPage) {
       page.is_damaged = true;
       break;

@@ -42,7 +42,7 @@ struct SalvageReport {
 
 /// Writes what can be read of a map, however damaged it is, as a new and sound map `out`. A block
 /// is kept if its checksum fits, and no other is. The map itself is not touched.
-/// Errors: kCorruptInput if the cell size cannot be found, kUsage if `out` exists, kIo, kNotFound.
+/// Errors: kCorruptInput if the voxel size cannot be found, kUsage if `out` exists, kIo, kNotFound.
 [[nodiscard]] Expected<SalvageReport> salvage_map(const std::filesystem::path& path,
                                                   const std::filesystem::path& out);
 

@@ -64,7 +64,7 @@ Expected<MapMeta> salvaged_description(const DescriptionRemains& found,
   if (!voxel_m || meta["voxel_m"].size() > 80 || !std::isfinite(*voxel_m) || *voxel_m <= 0.0) {
     return fail(
         ErrorCode::kCorruptInput, path.string(),
-        fmt::format("{} blocks can be read, but not how large their cells are", found.blocks),
+        fmt::format("{} blocks can be read, but not how large their voxels are", found.blocks),
         "nothing can be made of them");
   }
   make_readable(meta, *voxel_m, found, notes);
@@ -74,7 +74,7 @@ Expected<MapMeta> salvaged_description(const DescriptionRemains& found,
     return meta;
   }
   notes.push_back(fmt::format(
-      "its description is damaged: a cell size of {} m is what can be read of it", *voxel_m));
+      "its description is damaged: a voxel size of {} m is what can be read of it", *voxel_m));
   if (erase_thresholds(meta))
     notes.emplace_back("its config and thresholds are left out; defaults stand in");
   const auto step = meta.find("logodds_per_step");

@@ -25,7 +25,7 @@ struct DescriptionRemains {
 
 /// What the map tells of itself: all of it if it is sound, else the lines that can be meant; what
 /// is left out is told in `notes`. `path`: of the map, for errors. Errors: kCorruptInput if not
-/// even the size of its cells can be read.
+/// even the size of its voxels can be read.
 [[nodiscard]] Expected<MapMeta> salvaged_description(const DescriptionRemains& found,
                                                      const std::filesystem::path& path,
                                                      std::vector<std::string>& notes);

@@ -26,9 +26,9 @@ class SavedMap {
  public:
   /// Of the file.
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Cell size, thresholds and what a step is worth, frames, start: as it was last written.
+  /// Voxel size, thresholds and what a step is worth, frames, start: as it was last written.
   [[nodiscard]] const MapHeader& header() const { return header_; }
-  /// Edge of a cell [m]
+  /// Edge of a voxel [m]
   [[nodiscard]] double voxel_m() const { return header_.voxel_m; }
   /// Where belief becomes a claim.
   [[nodiscard]] const OccupancyThresholds& thresholds() const { return header_.scale.thresholds; }

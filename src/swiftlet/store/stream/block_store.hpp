@@ -146,7 +146,7 @@ class BlockStore final : public BlockArchive {
   std::thread thread_;  // started by open()
 };
 
-/// Saves one snapshot as a map file, with its cell size and thresholds.
+/// Saves one snapshot as a map file, with its voxel size and thresholds.
 [[nodiscard]] Status save_map(const std::filesystem::path& path, const MapSnapshot& map,
                               bool overwrite = false, MapMeta meta = {});
 

@@ -12,35 +12,35 @@
 
 namespace swiftlet::eval {
 
-/// A value for each cell of a box, x fastest, then y, then z.
+/// A value for each voxel of a box, x fastest, then y, then z.
 template <class T>
-class CellGrid {
+class DenseGrid {
  public:
-  CellGrid() = default;
+  DenseGrid() = default;
   /// REQUIRES: box.first <= box.last along each axis.
-  CellGrid(const VoxelBox& box, T fill)
+  DenseGrid(const VoxelBox& box, T fill)
       : box_(box),
         nx_(extent(box.first.x, box.last.x)),
         ny_(extent(box.first.y, box.last.y)),
-        cells_(nx_ * ny_ * extent(box.first.z, box.last.z), fill) {}
+        voxels_(nx_ * ny_ * extent(box.first.z, box.last.z), fill) {}
 
   [[nodiscard]] const VoxelBox& box() const { return box_; }
-  [[nodiscard]] std::size_t size() const { return cells_.size(); }
+  [[nodiscard]] std::size_t size() const { return voxels_.size(); }
   [[nodiscard]] bool contains(const VoxelIndex& v) const {
-    return !cells_.empty() && box_.contains(v);
+    return !voxels_.empty() && box_.contains(v);
   }
 
   /// REQUIRES: contains(v) (not checked: hot).
-  [[nodiscard]] T& at(const VoxelIndex& v) { return cells_[place_of(v)]; }
-  [[nodiscard]] const T& at(const VoxelIndex& v) const { return cells_[place_of(v)]; }
+  [[nodiscard]] T& at(const VoxelIndex& v) { return voxels_[place_of(v)]; }
+  [[nodiscard]] const T& at(const VoxelIndex& v) const { return voxels_[place_of(v)]; }
   [[nodiscard]] T at_or(const VoxelIndex& v, T outside) const {
     return contains(v) ? at(v) : outside;
   }
 
-  [[nodiscard]] std::span<T> cells() { return cells_; }
-  [[nodiscard]] std::span<const T> cells() const { return cells_; }
+  [[nodiscard]] std::span<T> voxels() { return voxels_; }
+  [[nodiscard]] std::span<const T> voxels() const { return voxels_; }
 
-  /// The cell at a place of cells(). REQUIRES: place < size().
+  /// The voxel at a place of voxels(). REQUIRES: place < size().
   [[nodiscard]] VoxelIndex voxel(std::size_t place) const {
     const auto at = [](std::int32_t first, std::size_t offset) {
       return first + static_cast<std::int32_t>(offset);
@@ -49,14 +49,14 @@ class CellGrid {
     return {at(box_.first.x, place % nx_), at(box_.first.y, row % ny_),
             at(box_.first.z, row / ny_)};
   }
-  /// Calls visit(VoxelIndex, T) for every cell.
+  /// Calls visit(VoxelIndex, T) for every voxel.
   template <class Visit>
   void for_each(Visit&& visit) const {
     std::size_t place = 0;
-    for (std::int32_t z = box_.first.z; z <= box_.last.z && place < cells_.size(); ++z) {
+    for (std::int32_t z = box_.first.z; z <= box_.last.z && place < voxels_.size(); ++z) {
       for (std::int32_t y = box_.first.y; y <= box_.last.y; ++y) {
         for (std::int32_t x = box_.first.x; x <= box_.last.x; ++x)
-          visit(VoxelIndex{x, y, z}, cells_[place++]);
+          visit(VoxelIndex{x, y, z}, voxels_[place++]);
       }
     }
   }
@@ -75,13 +75,14 @@ class CellGrid {
   VoxelBox box_{};
   std::size_t nx_ = 0;
   std::size_t ny_ = 0;
-  std::vector<T> cells_;
+  std::vector<T> voxels_;
 };
 
-/// What a map claims of each cell of a box: the form in which any mapper's result is judged.
-using Claims = CellGrid<Occupancy>;
+/// What a map claims of each voxel of a box: the form in which any mapper's result is judged.
+using Claims = DenseGrid<Occupancy>;
 
-/// Whether is(neighbour) holds for any cell within `reach` cells along each axis, itself included.
+/// Whether is(neighbour) holds for any voxel within `reach` voxels along each axis, itself
+/// included.
 template <class Is>
 [[nodiscard]] bool any_within(const VoxelIndex& v, std::int32_t reach, Is&& is) {
   for (std::int32_t z = v.z - reach; z <= v.z + reach; ++z) {

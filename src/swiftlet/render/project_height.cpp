@@ -13,11 +13,11 @@ constexpr Colour kFree{250, 248, 240};
 
 }  // namespace
 
-Picture draw_height(const BlockMap& map, const VoxelBox& whole, const ViewOptions& options) {
+Picture draw_height(const BlockMap& map, const VoxelBox& whole, const ProjectionOptions& options) {
   const VoxelBox box = cut_box(whole, map.voxel_m(), options);
   const std::int32_t low = lowest_matter(map, box).value_or(box.first.z);
   const int span = std::max(1, box.last.z - low);
-  FloorPlan plan(map, box, options.cell_px);
+  FloorPlan plan(map, box, options.voxel_px);
   const Columns columns(map, box);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
     const Column column = columns.at(x, y);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-// Cells that look at their readings, whatever these say of them by the model at hand. Included once
-// for every instruction set, so there is no #pragma once but Highway's toggle.
-#if defined(SWIFTLET_SAMPLED_CELLS_PRIVATE) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWIFTLET_SAMPLED_CELLS_PRIVATE
-#undef SWIFTLET_SAMPLED_CELLS_PRIVATE
+// Voxels that look at their readings, whatever these say of them by the model at hand. Included
+// once for every instruction set, so there is no #pragma once but Highway's toggle.
+#if defined(SWIFTLET_SAMPLED_VOXELS_PRIVATE) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWIFTLET_SAMPLED_VOXELS_PRIVATE
+#undef SWIFTLET_SAMPLED_VOXELS_PRIVATE
 #else
-#define SWIFTLET_SAMPLED_CELLS_PRIVATE
+#define SWIFTLET_SAMPLED_VOXELS_PRIVATE
 #endif
 
 #include <algorithm>
@@ -18,29 +18,29 @@ HWY_BEFORE_NAMESPACE();
 namespace swiftlet::HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 namespace {
 
-/// Cells are asked in groups of so many, in as many vectors as that takes on this machine.
-constexpr std::size_t kGroup = CellList::kSpare;
+/// Voxels are asked in groups of so many, in as many vectors as that takes on this machine.
+constexpr std::size_t kGroup = VoxelList::kSpare;
 constexpr std::size_t kVectors = kGroup / hn::MaxLanes(Floats());
-/// Where the first few samples of a face say the same [log-odds], for each cell of a group, the
+/// Where the first few samples of a face say the same [log-odds], for each voxel of a group, the
 /// others would, too.
 constexpr std::size_t kFew = 4;
 constexpr float kFlat = 0.015F;
 
-/// One face of each of several cells, and what the samples on it say so far.
+/// One face of each of several voxels, and what the samples on it say so far.
 template <class Model>
 struct Face {
   FloatLanes middle[3];
-  typename Model::OfFace cell;
+  typename Model::OfFace voxel;
   FloatLanes sum, least, most, ends;
 
   HWY_INLINE Face() {}  // NOLINT(modernize-use-equals-default): see FloatLanes
-  HWY_INLINE Face(const KernelParams& params, const CellLanes& cells, std::size_t axis)
-      : cell(params, cells, axis) {
+  HWY_INLINE Face(const KernelParams& params, const VoxelLanes& voxels, std::size_t axis)
+      : voxel(params, voxels, axis) {
     constexpr Floats f;
-    const FloatLanes to_face = hn::CopySign(hn::Set(f, 0.5F * params.voxel_m), cells.world[axis]);
+    const FloatLanes to_face = hn::CopySign(hn::Set(f, 0.5F * params.voxel_m), voxels.world[axis]);
     for (int i = 0; i < 3; ++i) {
       middle[i] =
-          hn::Sub(cells.camera[i], hn::Mul(to_face, hn::Set(f, params.world_axis[axis][i])));
+          hn::Sub(voxels.camera[i], hn::Mul(to_face, hn::Set(f, params.world_axis[axis][i])));
     }
     sum = ends = hn::Zero(f);
     least = hn::Set(f, 1e9F);
@@ -48,10 +48,10 @@ struct Face {
   }
 
   template <bool IsInside>
-  HWY_INLINE void add(const KernelParams& params, const CellLook& look, const FaceSample& place) {
+  HWY_INLINE void add(const KernelParams& params, const VoxelLook& look, const FaceSample& place) {
     const Sample s = sample_at<IsInside>(params, look.tiles, middle, place.to);
     const FloatLanes rays = hn::Mul(s.per_z, hn::Mul(s.per_z, s.per_z));
-    SampleEvidence result = Model::evaluate(params, look.tiles, s, cell, place);
+    SampleEvidence result = Model::evaluate(params, look.tiles, s, voxel, place);
     if constexpr (!IsInside) {
       result.log_odds = hn::IfThenElseZero(s.is_inside, result.log_odds);
       result.ends = hn::IfThenElseZero(s.is_inside, result.ends);
@@ -68,7 +68,7 @@ struct Face {
   }
 };
 
-/// What the faces of a vector of cells say together.
+/// What the faces of a vector of voxels say together.
 struct Sums {
   FloatLanes log_odds, ends;
 
@@ -77,13 +77,13 @@ struct Sums {
 
 /// The sum over rays as an integral over the faces that the camera sees: each is crossed by
 /// |n q| / q_z^3 rays per area, and a ray counts DW, z^2 times a constant that the area cancels.
-/// Adds one face's part to the sums of a group of cells.
+/// Adds one face's part to the sums of a group of voxels.
 template <class Model, bool IsInside>
-HWY_INLINE void add_face(const KernelParams& params, const CellLook& look, const CellLanes* cells,
-                         std::size_t axis, Sums* sums) {
+HWY_INLINE void add_face(const KernelParams& params, const VoxelLook& look,
+                         const VoxelLanes* voxels, std::size_t axis, Sums* sums) {
   constexpr Floats f;
   Face<Model> faces[kVectors];
-  for (std::size_t v = 0; v < kVectors; ++v) faces[v] = Face<Model>(params, cells[v], axis);
+  for (std::size_t v = 0; v < kVectors; ++v) faces[v] = Face<Model>(params, voxels[v], axis);
   const std::span<const FaceSample> places = look.samples.on_face(axis);
   std::size_t count = std::min(places.size(), kFew);
   bool is_flat = true;
@@ -102,7 +102,7 @@ HWY_INLINE void add_face(const KernelParams& params, const CellLook& look, const
       hn::Set(f, 1.0F / (DepthMeanTiles::kAll * static_cast<float>(count)));
   for (std::size_t v = 0; v < kVectors; ++v) {
     const FloatLanes half = hn::Set(f, 0.5F * params.voxel_m);
-    const FloatLanes distance = hn::Max(hn::Zero(f), hn::Sub(hn::Abs(cells[v].world[axis]), half));
+    const FloatLanes distance = hn::Max(hn::Zero(f), hn::Sub(hn::Abs(voxels[v].world[axis]), half));
     const FloatLanes share = hn::Mul(distance, per_count);
     sums[v].log_odds = hn::Add(sums[v].log_odds, hn::Mul(share, faces[v].sum));
     if constexpr (Model::kMarksNotFree)
@@ -111,25 +111,25 @@ HWY_INLINE void add_face(const KernelParams& params, const CellLook& look, const
 }
 
 template <class Model, bool IsInside>
-HWY_INLINE void fill_cells(const KernelParams& params, const CellCube& block, const CellList& list,
-                           const CellLook& look, FixedSteps* evidence) {
+HWY_INLINE void fill_voxels(const KernelParams& params, const VoxelCube& block,
+                            const VoxelList& list, const VoxelLook& look, FixedSteps* evidence) {
   constexpr Floats f;
   constexpr Ints i;
   const std::size_t lanes = hn::Lanes(f);
   for (std::size_t k = 0; k < list.count; k += kGroup) {
-    CellLanes cells[kVectors];
+    VoxelLanes voxels[kVectors];
     Sums sums[kVectors];
     for (std::size_t v = 0; v < kVectors; ++v) {
       const std::size_t at = k + v * lanes;
-      cells[v] = cells_at(params, block, hn::LoadU(f, &list.x[at]), hn::LoadU(f, &list.y[at]),
-                          hn::LoadU(f, &list.z[at]));
+      voxels[v] = voxels_at(params, block, hn::LoadU(f, &list.x[at]), hn::LoadU(f, &list.y[at]),
+                            hn::LoadU(f, &list.z[at]));
       sums[v].log_odds = sums[v].ends = hn::Zero(f);
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
-      add_face<Model, IsInside>(params, look, cells, axis, sums);
+      add_face<Model, IsInside>(params, look, voxels, axis, sums);
     HWY_ALIGN FixedSteps steps[kGroup];
     for (std::size_t v = 0; v < kVectors; ++v) {
-      const FloatLanes z = hn::Max(hn::Zero(f), cells[v].camera[2]);
+      const FloatLanes z = hn::Max(hn::Zero(f), voxels[v].camera[2]);
       IntLanes all = fixed_steps(params, hn::Mul(sums[v].log_odds, hn::Mul(z, z)));
       if constexpr (Model::kMarksNotFree) {
         const auto ends = hn::RebindMask(i, hn::Gt(sums[v].ends, hn::Zero(f)));
@@ -143,19 +143,19 @@ HWY_INLINE void fill_cells(const KernelParams& params, const CellCube& block, co
   }
 }
 
-/// Writes the evidence of listed cells. A Model of one sample has
+/// Writes the evidence of listed voxels. A Model of one sample has
 ///
-///   OfFace         what it wants to know of a face of a cell, made of (params, cells, axis)
-///   kMarksNotFree  whether its evidence has `ends`, which may mark a cell as not free
-///   evaluate()     the SampleEvidence of a tile of readings about cells whose rays end in it
+///   OfFace         what it wants to know of a face of a voxel, made of (params, voxels, axis)
+///   kMarksNotFree  whether its evidence has `ends`, which may mark a voxel as not free
+///   evaluate()     the SampleEvidence of a tile of readings about voxels whose rays end in it
 template <class Model>
-HWY_INLINE void fill_sampled_cells(const KernelParams& params, const CellCube& block,
-                                   const CellList& cells, const CellLook& look,
-                                   FixedSteps* evidence) {
+HWY_INLINE void fill_sampled_voxels(const KernelParams& params, const VoxelCube& block,
+                                    const VoxelList& voxels, const VoxelLook& look,
+                                    FixedSteps* evidence) {
   if (look.is_inside_image) {
-    fill_cells<Model, true>(params, block, cells, look, evidence);
+    fill_voxels<Model, true>(params, block, voxels, look, evidence);
   } else {
-    fill_cells<Model, false>(params, block, cells, look, evidence);
+    fill_voxels<Model, false>(params, block, voxels, look, evidence);
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/render/map_view.hpp"
+#include "swiftlet/render/projection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,16 +25,16 @@ BlockMap with_header(const BlockMap& map, double voxel_m, const Eigen::Vector3d&
   return other;
 }
 
-/// A floor of 12 x 8 cells, free above, one pillar of three cells at (3, 2).
+/// A floor of 12 x 8 voxels, free above, one pillar of three voxels at (3, 2).
 BlockMap pillar() {
   BlockMap map;
   for (std::int32_t x = -2; x < 10; ++x) {
     for (std::int32_t y = -4; y < 4; ++y) {
-      set(map, {x, y, 0}, kOccupiedCell);
-      for (std::int32_t z = 1; z < 5; ++z) set(map, {x, y, z}, kFreeCell);
+      set(map, {x, y, 0}, kOccupiedVoxel);
+      for (std::int32_t z = 1; z < 5; ++z) set(map, {x, y, z}, kFreeVoxel);
     }
   }
-  for (std::int32_t z = 1; z < 4; ++z) set(map, {3, 2, z}, kOccupiedCell);
+  for (std::int32_t z = 1; z < 4; ++z) set(map, {3, 2, z}, kOccupiedVoxel);
   return map;
 }
 
@@ -42,91 +42,92 @@ std::size_t pixels_of(const render::Picture& picture, render::Colour colour) {
   return static_cast<std::size_t>(std::ranges::count(picture.pixels(), colour));
 }
 
-class EveryView : public ::testing::TestWithParam<Registered<DrawView>> {};
+class EveryProjection : public ::testing::TestWithParam<Registered<DrawProjection>> {};
 
-TEST_P(EveryView, shows_a_change_of_the_map) {
+TEST_P(EveryProjection, shows_a_change_of_the_map) {
   const BlockMap with = pillar();
   BlockMap without = with;
-  for (std::int32_t z = 1; z < 4; ++z) set(without, {3, 2, z}, kFreeCell);
-  const ViewOptions options{0.3, 4};  // z = 0.3 m: layer 1
-  const auto a = draw_view(GetParam().name, with, options);
-  const auto b = draw_view(GetParam().name, without, options);
+  for (std::int32_t z = 1; z < 4; ++z) set(without, {3, 2, z}, kFreeVoxel);
+  const ProjectionOptions options{0.3, 4};  // z = 0.3 m: layer 1
+  const auto a = draw_projection(GetParam().name, with, options);
+  const auto b = draw_projection(GetParam().name, without, options);
   ASSERT_TRUE(a && b);
   EXPECT_FALSE(std::ranges::equal(a->pixels(), b->pixels()));
 }
 
-TEST_P(EveryView, draws_the_same_map_the_same_way_whatever_the_order_of_its_blocks) {
+TEST_P(EveryProjection, draws_the_same_map_the_same_way_whatever_the_order_of_its_blocks) {
   const BlockMap map = pillar();
   BlockMap reordered(map.header());
   auto order = map.sorted_blocks();
   std::ranges::reverse(order);
   for (const BlockIndex& index : order) reordered.put(index, *map.find(index));
-  const auto a = draw_view(GetParam().name, map, {});
-  const auto b = draw_view(GetParam().name, reordered, {});
+  const auto a = draw_projection(GetParam().name, map, {});
+  const auto b = draw_projection(GetParam().name, reordered, {});
   ASSERT_TRUE(a && b);
   EXPECT_TRUE(std::ranges::equal(a->pixels(), b->pixels()));
 }
 
-TEST_P(EveryView, refuses_a_map_of_unknown_cells_and_a_picture_without_end) {
-  EXPECT_EQ(draw_view(GetParam().name, BlockMap{}, {}).error().code, ErrorCode::kNotFound);
+TEST_P(EveryProjection, refuses_a_map_of_unknown_voxels_and_a_picture_without_end) {
+  EXPECT_EQ(draw_projection(GetParam().name, BlockMap{}, {}).error().code, ErrorCode::kNotFound);
   BlockMap wide;
-  set(wide, {-2'000'000'000, 0, 0}, kOccupiedCell);
-  set(wide, {2'000'000'000, 0, 0}, kOccupiedCell);
-  EXPECT_EQ(draw_view(GetParam().name, wide, {}).error().code, ErrorCode::kUsage);
+  set(wide, {-2'000'000'000, 0, 0}, kOccupiedVoxel);
+  set(wide, {2'000'000'000, 0, 0}, kOccupiedVoxel);
+  EXPECT_EQ(draw_projection(GetParam().name, wide, {}).error().code, ErrorCode::kUsage);
 }
 
-TEST_P(EveryView, draws_two_blocks_a_kilometre_apart_small_and_soon) {
+TEST_P(EveryProjection, draws_two_blocks_a_kilometre_apart_small_and_soon) {
   BlockMap map;
-  set(map, {0, 0, 0}, kOccupiedCell);
-  set(map, {5000, 5000, 5000}, kOccupiedCell);
+  set(map, {0, 0, 0}, kOccupiedVoxel);
+  set(map, {5000, 5000, 5000}, kOccupiedVoxel);
   const auto start = std::chrono::steady_clock::now();
-  const auto picture = draw_view(GetParam().name, map, {});
+  const auto picture = draw_projection(GetParam().name, map, {});
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
   ASSERT_TRUE(picture) << picture.error().text();
   EXPECT_LT(picture->pixels().size(), 12'000'000U);
-  EXPECT_GT(joined_cells(map, {}), 1) << "and this is told";
-  EXPECT_EQ(joined_cells(pillar(), {}), 1);
+  EXPECT_GT(joined_voxels(map, {}), 1) << "and this is told";
+  EXPECT_EQ(joined_voxels(pillar(), {}), 1);
 }
 
-TEST_P(EveryView, draws_cells_of_any_size_and_a_start_that_is_nowhere) {
+TEST_P(EveryProjection, draws_voxels_of_any_size_and_a_start_that_is_nowhere) {
   for (const double voxel_m : {1e300, 1e-300}) {
     const BlockMap map =
         with_header(pillar(), voxel_m, {1e300, std::numeric_limits<double>::quiet_NaN(), -1e300});
-    EXPECT_TRUE(draw_view(GetParam().name, map, {})) << voxel_m;
-    EXPECT_TRUE(draw_view(GetParam().name, map, {std::numeric_limits<double>::quiet_NaN(), 4}));
+    EXPECT_TRUE(draw_projection(GetParam().name, map, {})) << voxel_m;
+    EXPECT_TRUE(
+        draw_projection(GetParam().name, map, {std::numeric_limits<double>::quiet_NaN(), 4}));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, EveryView,
-                         ::testing::ValuesIn(render::map_views().begin(),
-                                             render::map_views().end()),
-                         [](const auto& view) { return std::string(view.param.name); });
+INSTANTIATE_TEST_SUITE_P(, EveryProjection,
+                         ::testing::ValuesIn(render::projections().begin(),
+                                             render::projections().end()),
+                         [](const auto& projection) { return std::string(projection.param.name); });
 
-TEST(SliceView, has_as_many_pixels_of_each_colour_as_the_layer_has_cells) {
-  const int px = 32;  // ticks, scale bar and origin stay within the margin and one cell
-  const auto picture = draw_view("slice", pillar(), {0.3, px});
+TEST(SliceProjection, has_as_many_pixels_of_each_colour_as_the_layer_has_voxels) {
+  const int px = 32;  // ticks, scale bar and origin stay within the margin and one voxel
+  const auto picture = draw_projection("slice", pillar(), {0.3, px});
   ASSERT_TRUE(picture);
-  const std::size_t cell = px * px;
-  EXPECT_EQ(pixels_of(*picture, {31, 73, 160}), cell) << "the pillar";
+  const std::size_t voxel = px * px;
+  EXPECT_EQ(pixels_of(*picture, {31, 73, 160}), voxel) << "the pillar";
   const std::size_t free = pixels_of(*picture, {255, 226, 89});
-  EXPECT_LE(free, 95 * cell);
-  EXPECT_GT(free, 94 * cell) << "the origin's cross covers part of four cells";
+  EXPECT_LE(free, 95 * voxel);
+  EXPECT_GT(free, 94 * voxel) << "the origin's cross covers part of four voxels";
 }
 
-TEST(SliceView, shows_the_layer_where_the_flight_began_unless_told_otherwise) {
+TEST(SliceProjection, shows_the_layer_where_the_flight_began_unless_told_otherwise) {
   const BlockMap map = with_header(pillar(), 0.2, {0.1, 0.1, 0.7});  // layer 3
-  const auto asked = draw_view("slice", map, {0.7, 8});
-  const auto unasked = draw_view("slice", map, {std::nullopt, 8});
-  const auto floor = draw_view("slice", map, {0.1, 8});
+  const auto asked = draw_projection("slice", map, {0.7, 8});
+  const auto unasked = draw_projection("slice", map, {std::nullopt, 8});
+  const auto floor = draw_projection("slice", map, {0.1, 8});
   ASSERT_TRUE(asked && unasked && floor);
   EXPECT_TRUE(std::ranges::equal(asked->pixels(), unasked->pixels()));
   EXPECT_FALSE(std::ranges::equal(floor->pixels(), unasked->pixels()));
 }
 
-TEST(SliceView, x_forward_is_up_and_y_left_is_left) {
-  const auto picture = draw_view("slice", pillar(), {0.3, 8});
+TEST(SliceProjection, x_forward_is_up_and_y_left_is_left) {
+  const auto picture = draw_projection("slice", pillar(), {0.3, 8});
   ASSERT_TRUE(picture);
-  // Rows of cells from x = 9 down to -2, columns from y = 3 to -4, behind the margin of 28 px.
+  // Rows of voxels from x = 9 down to -2, columns from y = 3 to -4, behind the margin of 28 px.
   EXPECT_EQ(picture->at(28 + (3 - 2) * 8 + 4, 28 + (9 - 3) * 8 + 4), (render::Colour{31, 73, 160}));
 }
 
@@ -158,8 +159,8 @@ TEST(Polygon, two_that_share_an_edge_leave_no_gap_and_do_not_overlap) {
 
 TEST(CoarserMap, keeps_matter_before_emptiness_on_both_sides_of_the_origin) {
   BlockMap map;
-  set(map, {-1, -3, 2}, kOccupiedCell);
-  for (std::int32_t x = -3; x < 3; ++x) set(map, {x, 0, 0}, kFreeCell);
+  set(map, {-1, -3, 2}, kOccupiedVoxel);
+  for (std::int32_t x = -3; x < 3; ++x) set(map, {x, 0, 0}, kFreeVoxel);
   const BlockMap large = coarser_map(map, 3);
   EXPECT_DOUBLE_EQ(large.voxel_m(), 3 * map.voxel_m());
   EXPECT_EQ(large.occupancy(VoxelIndex{-1, -1, 0}), Occupancy::kOccupied);

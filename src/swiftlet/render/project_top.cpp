@@ -14,10 +14,10 @@ constexpr double kFullHeight_m = 1.5;  // a column with this much matter is draw
 
 }  // namespace
 
-/// Walls stand out dark against tables and chairs, since they fill more cells of their columns.
-Picture draw_top(const BlockMap& map, const VoxelBox& whole, const ViewOptions& options) {
+/// Walls stand out dark against tables and chairs, since they fill more voxels of their columns.
+Picture draw_top(const BlockMap& map, const VoxelBox& whole, const ProjectionOptions& options) {
   const VoxelBox box = cut_box(whole, map.voxel_m(), options);
-  FloorPlan plan(map, box, options.cell_px);
+  FloorPlan plan(map, box, options.voxel_px);
   const Columns columns(map, box);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
     const Column column = columns.at(x, y);

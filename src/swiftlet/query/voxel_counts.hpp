@@ -9,34 +9,34 @@
 
 namespace swiftlet {
 
-/// Cells by state.
-struct CellCounts {
-  std::size_t free = 0;      ///< cells below the lower threshold
-  std::size_t unknown = 0;   ///< cells between the two
-  std::size_t occupied = 0;  ///< cells from the upper threshold on
+/// Voxels by state.
+struct VoxelCounts {
+  std::size_t free = 0;      ///< voxels below the lower threshold
+  std::size_t unknown = 0;   ///< voxels between the two
+  std::size_t occupied = 0;  ///< voxels from the upper threshold on
 
-  /// One cell more.
+  /// One voxel more.
   void add(Occupancy state) {
     ++(state == Occupancy::kFree ? free : state == Occupancy::kUnknown ? unknown : occupied);
   }
-  /// The cells of a block more.
+  /// The voxels of a block more.
   void add(const VoxelBlock& block, const OccupancyThresholds& thresholds);
-  friend bool operator==(const CellCounts&, const CellCounts&) = default;
+  friend bool operator==(const VoxelCounts&, const VoxelCounts&) = default;
 };
 
-/// Cells of the blocks that the map holds; everything else is unknown and not counted.
+/// Voxels of the blocks that the map holds; everything else is unknown and not counted.
 /// By thresholds of the caller's, or those of the map. Cost: O(blocks).
 template <OccupancyMap Map>
-[[nodiscard]] CellCounts count_cells(const Map& map, const OccupancyThresholds& thresholds) {
-  CellCounts counts;
+[[nodiscard]] VoxelCounts count_voxels(const Map& map, const OccupancyThresholds& thresholds) {
+  VoxelCounts counts;
   map.for_each_known_block(
       [&](const BlockIndex&, const VoxelBlock& block) { counts.add(block, thresholds); });
   return counts;
 }
 /// By the map's own thresholds.
 template <OccupancyMap Map>
-[[nodiscard]] CellCounts count_cells(const Map& map) {
-  return count_cells(map, OccupancyThresholds(map.scale().thresholds));
+[[nodiscard]] VoxelCounts count_voxels(const Map& map) {
+  return count_voxels(map, OccupancyThresholds(map.scale().thresholds));
 }
 
 }  // namespace swiftlet

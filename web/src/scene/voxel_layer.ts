@@ -6,9 +6,9 @@ import * as THREE from 'three';
 import type {Block, World} from '../state/world';
 import {colourTable, type Colouring} from './colours';
 
-// A cell is drawn as the three faces that look at the camera: half the work of a whole box.
+// A voxel is drawn as the three faces that look at the camera: half the work of a whole box.
 const kVertex = /* glsl */ `
-  attribute vec4 cell;  // index along x, y, z from the origin cell; byte
+  attribute vec4 indexAndByte;  // index along x, y, z from the origin voxel; byte
   uniform vec3 origin;
   uniform float voxel, size, cutZ;
   uniform vec2 range;
@@ -17,14 +17,14 @@ const kVertex = /* glsl */ `
   varying vec2 vFace;
   varying float vShade;
   void main() {
-    vec3 centre = (origin + cell.xyz + 0.5) * voxel;
+    vec3 centre = (origin + indexAndByte.xyz + 0.5) * voxel;
     vec3 side = sign(cameraPosition - centre);
     vec3 axis = normal;
     vec3 corner = position * 0.5;                 // in the frame of the face: outward is +
     vec3 world = centre + corner * mix(vec3(1.0), side, axis) * voxel * size;
     vNormal = axis * side;
     vFace = uv;
-    float t = byHeight ? (centre.z - range.x) / max(range.y - range.x, 0.001) : cell.w / 255.0;
+    float t = byHeight ? (centre.z - range.x) / max(range.y - range.x, 0.001) : indexAndByte.w / 255.0;
     vShade = clamp(t, 0.0, 1.0);
     gl_Position = projectionMatrix * viewMatrix * vec4(world, 1.0);
     if (centre.z > cutZ) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside of everything
@@ -74,19 +74,19 @@ function threeFaces(): THREE.InstancedBufferGeometry {
   return geometry;
 }
 
-export type CellFilter = (byte: number) => boolean;
+export type VoxelFilter = (byte: number) => boolean;
 
-/// All cells of one state, in one draw call. Keeps the cells of each block, and joins them when blocks have changed.
-export class CellLayer {
+/// All voxels of one state, in one draw call. Keeps the voxels of each block, and joins them when blocks have changed.
+export class VoxelLayer {
   readonly mesh: THREE.Mesh;
   count = 0;
   #lists = new Map<number, Int16Array>();
   #buffer = new Int16Array(0);
   #origin: [number, number, number] | null = null;
   #material: THREE.ShaderMaterial;
-  #filter: CellFilter;
+  #filter: VoxelFilter;
 
-  constructor(filter: CellFilter, size: number, edge: number) {
+  constructor(filter: VoxelFilter, size: number, edge: number) {
     this.#filter = filter;
     this.#material = new THREE.ShaderMaterial({
       vertexShader: kVertex,
@@ -139,7 +139,7 @@ export class CellLayer {
   update(world: World, keys: Iterable<number>): void {
     for (const key of keys) {
       const block = world.blocks.get(key);
-      const list = block ? this.#cellsOf(block) : null;
+      const list = block ? this.#voxelsOf(block) : null;
       if (list && list.length > 0) this.#lists.set(key, list);
       else this.#lists.delete(key);
     }
@@ -151,13 +151,13 @@ export class CellLayer {
     this.#join(0.1);
   }
 
-  #cellsOf(block: Block): Int16Array {
-    // Indices on the GPU are int16, from the block that came first: 32767 cells each way.
+  #voxelsOf(block: Block): Int16Array {
+    // Indices on the GPU are int16, from the block that came first: 32767 voxels each way.
     this.#origin ??= [8 * block.x, 8 * block.y, 8 * block.z];
     const [ox, oy, oz] = this.#origin;
     const out: number[] = [];
-    for (let i = 0; i < block.cells.length; ++i) {
-      const byte = block.cells[i]!;
+    for (let i = 0; i < block.voxels.length; ++i) {
+      const byte = block.voxels[i]!;
       if (!this.#filter(byte)) continue;
       out.push(8 * block.x + (i & 7) - ox, 8 * block.y + ((i >> 3) & 7) - oy, 8 * block.z + (i >> 6) - oz, byte);
     }
@@ -168,22 +168,22 @@ export class CellLayer {
     let length = 0;
     for (const list of this.#lists.values()) length += list.length;
     const geometry = this.mesh.geometry as THREE.InstancedBufferGeometry;
-    if (length > this.#buffer.length || !geometry.getAttribute('cell')) {
+    if (length > this.#buffer.length || !geometry.getAttribute('indexAndByte')) {
       this.#buffer = new Int16Array(Math.max(4096, Math.ceil(length * 1.5)));
       geometry.dispose(); // the old buffer on the GPU
-      const cells = new THREE.InstancedBufferAttribute(this.#buffer, 4);
-      cells.setUsage(THREE.DynamicDrawUsage);
-      geometry.setAttribute('cell', cells);
+      const voxels = new THREE.InstancedBufferAttribute(this.#buffer, 4);
+      voxels.setUsage(THREE.DynamicDrawUsage);
+      geometry.setAttribute('indexAndByte', voxels);
     }
     let at = 0;
     for (const list of this.#lists.values()) {
       this.#buffer.set(list, at);
       at += list.length;
     }
-    const cells = geometry.getAttribute('cell') as THREE.InstancedBufferAttribute;
-    cells.clearUpdateRanges();
-    if (at > 0) cells.addUpdateRange(0, at);
-    cells.needsUpdate = true;
+    const voxels = geometry.getAttribute('indexAndByte') as THREE.InstancedBufferAttribute;
+    voxels.clearUpdateRanges();
+    if (at > 0) voxels.addUpdateRange(0, at);
+    voxels.needsUpdate = true;
     this.count = at / 4;
     geometry.instanceCount = this.count;
     this.mesh.visible = this.count > 0;

@@ -14,14 +14,14 @@ constexpr Colour kUnknown{255, 255, 255};
 
 /// The thesis's 2-D map (method 10): the camera-height layer where the flight began,
 /// unless told otherwise.
-Picture draw_slice(const BlockMap& map, const VoxelBox& box, const ViewOptions& options) {
+Picture draw_slice(const BlockMap& map, const VoxelBox& box, const ProjectionOptions& options) {
   const double start_z_m = map.header().start_m.value_or(Eigen::Vector3d::Zero()).z();
   const std::int32_t z = layer_at(options.z_m.value_or(start_z_m), map.voxel_m());
-  FloorPlan plan(map, box, options.cell_px);
+  FloorPlan plan(map, box, options.voxel_px);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
-    const Occupancy cell = map.occupancy(VoxelIndex{x, y, z});
-    const Colour known = cell == Occupancy::kOccupied ? kOccupied : kFree;
-    plan.fill_column(x, y, cell == Occupancy::kUnknown ? kUnknown : known);
+    const Occupancy voxel = map.occupancy(VoxelIndex{x, y, z});
+    const Colour known = voxel == Occupancy::kOccupied ? kOccupied : kFree;
+    plan.fill_column(x, y, voxel == Occupancy::kUnknown ? kUnknown : known);
   });
   return std::move(plan).finish();
 }

@@ -14,21 +14,21 @@
 
 namespace swiftlet {
 
-/// A cube of cells within a block, relative to the camera.
-struct CellCube {
-  Float3 p_world;   ///< centre of the first cell [m, world axes]
+/// A cube of voxels within a block, relative to the camera.
+struct VoxelCube {
+  Float3 p_world;   ///< centre of the first voxel [m, world axes]
   Float3 p_camera;  ///< the same in camera axes
   int edge;         ///< 4 or 8
-  int offset;       ///< of the first cell in its block
+  int offset;       ///< of the first voxel in its block
 };
 
-/// Cells of a block that have to look at their readings, each one lane of a kernel.
-struct CellList {
+/// Voxels of a block that have to look at their readings, each one lane of a kernel.
+struct VoxelList {
   static constexpr std::size_t kSpare = 16;  // a kernel reads whole vectors
 
   std::size_t count = 0;
   std::array<std::uint16_t, kBlockVoxels> offset;                      ///< in the block
-  alignas(64) std::array<float, kBlockVoxels + kSpare> x{}, y{}, z{};  ///< cells from its first
+  alignas(64) std::array<float, kBlockVoxels + kSpare> x{}, y{}, z{};  ///< voxels from its first
 
   void add_cube(int first, int edge) {
     for (int row = 0; row < edge * edge; ++row) {
@@ -36,7 +36,7 @@ struct CellList {
       for (int i = 0; i < edge; ++i) add(place + i);
     }
   }
-  /// The lanes of the last group that have no cell do what the first one does.
+  /// The lanes of the last group that have no voxel do what the first one does.
   void fill_last_group() {
     for (std::size_t i = count; i < count + kSpare; ++i) {
       x[i] = x[0];
@@ -56,11 +56,11 @@ struct CellList {
   }
 };
 
-/// How cells look at their image: the samples on their faces, and the tiles that these fall into.
-struct CellLook {
+/// How voxels look at their image: the samples on their faces, and the tiles that these fall into.
+struct VoxelLook {
   FaceSamples samples;
   DepthMeanTiles tiles;
-  bool is_inside_image;  ///< all of the cells: no sample needs to ask
+  bool is_inside_image;  ///< all of the voxels: no sample needs to ask
 };
 
 }  // namespace swiftlet

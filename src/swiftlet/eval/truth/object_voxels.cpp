@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/eval/truth/object_cells.hpp"
+#include "swiftlet/eval/truth/object_voxels.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -15,15 +15,15 @@ namespace {
 
 /// Against rounding, of coordinates in metres.
 constexpr double kRounding_m = 1e-9;
-/// Edges that a centre must lie within matter, for its cell to be solid: nearer to the surface half
-/// of the cell is empty, and poses are known no better.
+/// Edges that a centre must lie within matter, for its voxel to be solid: nearer to the surface
+/// half of the voxel is empty, and poses are known no better.
 constexpr double kDeep = 0.05;
 
 using Corners = std::array<Eigen::Vector3d, 2>;  // least and greatest coordinates [m, world]
 
 template <class Visit>
-void for_each_cell_between(const Corners& corners, double voxel_m, const VoxelBox& box,
-                           Visit&& visit) {
+void for_each_voxel_between(const Corners& corners, double voxel_m, const VoxelBox& box,
+                            Visit&& visit) {
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(voxel_m);
   // Planes reach far beyond any box: limit before the numbers become indices.
   const Eigen::Vector3d least = centre_of(box.first, voxel_m).cwiseMax(corners[0] - margin);
@@ -37,19 +37,19 @@ void for_each_cell_between(const Corners& corners, double voxel_m, const VoxelBo
   }
 }
 
-/// Half the thickness of a sheet of cells without holes across a direction [m] (a "naive" plane).
+/// Half the thickness of a sheet of voxels without holes across a direction [m] (a "naive" plane).
 double half_sheet_m(const Eigen::Vector3d& unit, double voxel_m) {
   return 0.5 * voxel_m * unit.cwiseAbs().maxCoeff();
 }
 
-class BoxCells {
+class BoxVoxels {
  public:
-  BoxCells(const sim::Box& b, double voxel_m)
+  BoxVoxels(const sim::Box& b, double voxel_m)
       : centre_m_(b.centre_m),
         axes_(b.R_world_box.toRotationMatrix()),
         half_m_(0.5 * b.size_m),
         grown_m_(half_m_.array() - kDeep * voxel_m),
-        half_cell_m_(0.5 * voxel_m) {
+        half_voxel_m_(0.5 * voxel_m) {
     for (int i = 0; i < 3; ++i) {
       if (b.size_m[i] < voxel_m)
         grown_m_[i] = std::max(half_m_[i], half_sheet_m(axes_.col(i), voxel_m));
@@ -62,7 +62,7 @@ class BoxCells {
   }
   [[nodiscard]] Holds at(const Eigen::Vector3d& centre) const {
     const Eigen::Vector3d p = axes_.transpose() * (centre - centre_m_);
-    // Half open: of two cells that share a thin board evenly, one is solid.
+    // Half open: of two voxels that share a thin board evenly, one is solid.
     const bool is_solid = (p.array() <= grown_m_.array() - kRounding_m).all() &&
                           (p.array() >= -grown_m_.array() - kRounding_m).all();
     if (is_solid) return Holds::kSolid;
@@ -75,8 +75,8 @@ class BoxCells {
     const auto is_separated_along = [&](const Eigen::Vector3d& axis) {
       const double length = axis.norm();
       if (length < 1e-6) return false;  // parallel edges
-      const double reach =
-          (axes_.transpose() * axis).cwiseAbs().dot(half_m_) + half_cell_m_ * axis.cwiseAbs().sum();
+      const double reach = (axes_.transpose() * axis).cwiseAbs().dot(half_m_) +
+                           half_voxel_m_ * axis.cwiseAbs().sum();
       return std::abs(axis.dot(offset)) >= reach - kRounding_m * length;
     };
     for (int i = 0; i < 3; ++i) {
@@ -92,13 +92,13 @@ class BoxCells {
   Eigen::Vector3d centre_m_;
   Eigen::Matrix3d axes_;
   Eigen::Vector3d half_m_;
-  Eigen::Vector3d grown_m_;  // thin axes are one cell wide
-  double half_cell_m_;
+  Eigen::Vector3d grown_m_;  // thin axes are one voxel wide
+  double half_voxel_m_;
 };
 
-class CylinderCells {
+class CylinderVoxels {
  public:
-  CylinderCells(const sim::Cylinder& c, double voxel_m)
+  CylinderVoxels(const sim::Cylinder& c, double voxel_m)
       : from_m_(c.from_m),
         to_m_(c.to_m),
         radius_m_(0.5 * c.diameter_m),
@@ -126,13 +126,13 @@ class CylinderCells {
            across <= radius_m_ - deep_m;
   }
   [[nodiscard]] bool is_on_axis(const Eigen::Vector3d& centre) const {
-    const auto cell = voxel_containing(centre, voxel_m_);
-    const Clip clip = clip_to_box({from_m_ / voxel_m_, to_m_ / voxel_m_}, {cell, cell});
+    const auto voxel = voxel_containing(centre, voxel_m_);
+    const Clip clip = clip_to_box({from_m_ / voxel_m_, to_m_ / voxel_m_}, {voxel, voxel});
     if (clip.is_empty()) return false;
-    const double length_cells = (to_m_ - from_m_).norm() / voxel_m_;
-    return (clip.end - clip.begin) * length_cells >= std::min(0.5, 0.5 * length_cells);
+    const double length_voxels = (to_m_ - from_m_).norm() / voxel_m_;
+    return (clip.end - clip.begin) * length_voxels >= std::min(0.5, 0.5 * length_voxels);
   }
-  /// Distance [m] from the axis to the cell around a centre: a convex function along the axis.
+  /// Distance [m] from the axis to the voxel around a centre: a convex function along the axis.
   [[nodiscard]] double distance_of_axis(const Eigen::Vector3d& centre) const {
     const auto distance_at = [&](double t) {
       const Eigen::Vector3d p = from_m_ + t * (to_m_ - from_m_);
@@ -157,9 +157,9 @@ class CylinderCells {
   bool is_thin_;
 };
 
-class PlaneCells {
+class PlaneVoxels {
  public:
-  PlaneCells(const sim::Plane& p, double voxel_m)
+  PlaneVoxels(const sim::Plane& p, double voxel_m)
       : centre_m_(p.centre_m),
         normal_(p.normal.normalized()),
         half_side_m_(0.5 * p.side_m),
@@ -190,16 +190,16 @@ class PlaneCells {
   double half_touch_m_;
 };
 
-template <class Cells>
-void visit_cells(const Cells& cells, double voxel_m, const VoxelBox& box,
-                 const std::function<void(const VoxelIndex&, Holds)>& visit) {
-  for_each_cell_between(cells.corners(), voxel_m, box, [&](const VoxelIndex& cell) {
-    const Holds holds = cells.at(centre_of(cell, voxel_m));
-    if (holds != Holds::kNothing) visit(cell, holds);
+template <class Voxels>
+void visit_voxels(const Voxels& voxels, double voxel_m, const VoxelBox& box,
+                  const std::function<void(const VoxelIndex&, Holds)>& visit) {
+  for_each_voxel_between(voxels.corners(), voxel_m, box, [&](const VoxelIndex& voxel) {
+    const Holds holds = voxels.at(centre_of(voxel, voxel_m));
+    if (holds != Holds::kNothing) visit(voxel, holds);
   });
 }
 
-/// The cells that hold points of the triangles, a quarter of a cell apart.
+/// The voxels that hold points of the triangles, a quarter of a voxel apart.
 void visit_mesh(const sim::TriangleMesh& mesh, double voxel_m, const VoxelBox& box,
                 const std::function<void(const VoxelIndex&, Holds)>& visit) {
   std::set<VoxelIndex> seen;
@@ -214,21 +214,21 @@ void visit_mesh(const sim::TriangleMesh& mesh, double voxel_m, const VoxelBox& b
         seen.insert(voxel_containing(a + (i * ab + j * ac) / steps, voxel_m));
     }
   }
-  for (const VoxelIndex& cell : seen) {
-    if (box.contains(cell)) visit(cell, Holds::kSolid);
+  for (const VoxelIndex& voxel : seen) {
+    if (box.contains(voxel)) visit(voxel, Holds::kSolid);
   }
 }
 
 }  // namespace
 
-void for_each_held_cell(const sim::Object& object, double voxel_m, const VoxelBox& box,
-                        const std::function<void(const VoxelIndex&, Holds)>& visit) {
+void for_each_held_voxel(const sim::Object& object, double voxel_m, const VoxelBox& box,
+                         const std::function<void(const VoxelIndex&, Holds)>& visit) {
   if (const auto* b = std::get_if<sim::Box>(&object.shape)) {
-    visit_cells(BoxCells(*b, voxel_m), voxel_m, box, visit);
+    visit_voxels(BoxVoxels(*b, voxel_m), voxel_m, box, visit);
   } else if (const auto* c = std::get_if<sim::Cylinder>(&object.shape)) {
-    visit_cells(CylinderCells(*c, voxel_m), voxel_m, box, visit);
+    visit_voxels(CylinderVoxels(*c, voxel_m), voxel_m, box, visit);
   } else if (const auto* p = std::get_if<sim::Plane>(&object.shape)) {
-    visit_cells(PlaneCells(*p, voxel_m), voxel_m, box, visit);
+    visit_voxels(PlaneVoxels(*p, voxel_m), voxel_m, box, visit);
   } else {
     visit_mesh(std::get<sim::TriangleMesh>(object.shape), voxel_m, box, visit);
   }

@@ -17,7 +17,7 @@ constexpr double kMargin_px = 24.0;
 constexpr Colour kPaper{255, 255, 255};
 constexpr Colour kFloor{236, 238, 241};
 
-/// The face of a cell that looks along +-1 of one axis.
+/// The face of a voxel that looks along +-1 of one axis.
 struct Face {
   Eigen::Vector3i normal;
   double brightness;  // light from above and behind the left shoulder
@@ -26,10 +26,10 @@ struct Face {
 const std::array<Face, 3> kFaces{Face{{0, 0, 1}, 1.0}, Face{{-1, 0, 0}, 0.80},
                                  Face{{0, -1, 0}, 0.60}};
 
-/// Isometric projection: the world in cells to pixels of the enlarged picture.
+/// Isometric projection: the world in voxels to pixels of the enlarged picture.
 class IsoCamera {
  public:
-  IsoCamera(const VoxelBox& box, double cell_px) : cell_px_(cell_px) {
+  IsoCamera(const VoxelBox& box, double voxel_px) : voxel_px_(voxel_px) {
     Eigen::Vector2d low = Eigen::Vector2d::Constant(1e30);
     Eigen::Vector2d high = -low;
     for (int corner = 0; corner < 8; ++corner) {
@@ -44,8 +44,8 @@ class IsoCamera {
     size_ = (high - low + 2.0 * margin).array().ceil().cast<int>() + kSupersampling;
   }
 
-  [[nodiscard]] Eigen::Vector2d operator()(const Eigen::Vector3d& p_cells) const {
-    return unshifted(p_cells) + shift_;
+  [[nodiscard]] Eigen::Vector2d operator()(const Eigen::Vector3d& p_voxels) const {
+    return unshifted(p_voxels) + shift_;
   }
   [[nodiscard]] const Eigen::Vector2i& size() const { return size_; }
 
@@ -53,10 +53,10 @@ class IsoCamera {
   /// x runs to the upper right, y to the upper left, z up; 30 degrees each.
   [[nodiscard]] Eigen::Vector2d unshifted(const Eigen::Vector3d& p) const {
     static const double kCos30 = std::sqrt(3.0) / 2.0;
-    return cell_px_ * Eigen::Vector2d((p.x() - p.y()) * kCos30, -(p.x() + p.y()) * 0.5 - p.z());
+    return voxel_px_ * Eigen::Vector2d((p.x() - p.y()) * kCos30, -(p.x() + p.y()) * 0.5 - p.z());
   }
 
-  double cell_px_;
+  double voxel_px_;
   Eigen::Vector2d shift_;
   Eigen::Vector2i size_;
 };
@@ -72,17 +72,17 @@ Eigen::Vector3i axis_along(const Face& face) {
 
 class IsoDrawing {
  public:
-  IsoDrawing(const BlockMap& map, const VoxelBox& box, int cell_px)
+  IsoDrawing(const BlockMap& map, const VoxelBox& box, int voxel_px)
       : map_(map),
         box_(box),
-        camera_(box, cell_px * kSupersampling),
+        camera_(box, voxel_px * kSupersampling),
         picture_(camera_.size().x(), camera_.size().y(), kPaper) {}
 
   void draw_floor(std::int32_t x, std::int32_t y) {
     draw_face({x, y, box_.first.z - 1}, kFaces[0], kFloor);
   }
 
-  void draw_cell(const VoxelIndex& v) {
+  void draw_voxel(const VoxelIndex& v) {
     const double span = std::max(1, box_.last.z - box_.first.z);
     const Colour colour = height_colour((v.z - box_.first.z) / span);
     for (const Face& face : kFaces) {
@@ -98,7 +98,7 @@ class IsoDrawing {
     return v.z <= box_.last.z && map_.occupancy(v) == Occupancy::kOccupied;
   }
 
-  /// Ambient occlusion: matter around the cell in front of a face takes light from it. 0.6 .. 1.
+  /// Ambient occlusion: matter around the voxel in front of a face takes light from it. 0.6 .. 1.
   [[nodiscard]] double openness(const VoxelIndex& v, const Face& face) const {
     const Eigen::Vector3i along = axis_along(face);
     const Eigen::Vector3i across = face.normal.cross(along);
@@ -129,28 +129,28 @@ class IsoDrawing {
 
 }  // namespace
 
-/// Painter's algorithm: cells from the farthest to the nearest, which for cubes of one size is the
-/// order of x + y - z, falling; only faces that no other cell covers are drawn.
-Picture draw_iso(const BlockMap& map, const VoxelBox& whole, const ViewOptions& options) {
+/// Painter's algorithm: voxels from the farthest to the nearest, which for cubes of one size is the
+/// order of x + y - z, falling; only faces that no other voxel covers are drawn.
+Picture draw_iso(const BlockMap& map, const VoxelBox& whole, const ProjectionOptions& options) {
   VoxelBox box = cut_box(whole, map.voxel_m(), options);
-  std::vector<VoxelIndex> cells;
+  std::vector<VoxelIndex> voxels;
   for_each_known_voxel(map, [&](const VoxelIndex& v, QuantizedLogOdds, Occupancy state) {
-    if (state == Occupancy::kOccupied && v.z <= box.last.z) cells.push_back(v);
+    if (state == Occupancy::kOccupied && v.z <= box.last.z) voxels.push_back(v);
   });
-  std::ranges::sort(cells, [](const VoxelIndex& a, const VoxelIndex& b) {
+  std::ranges::sort(voxels, [](const VoxelIndex& a, const VoxelIndex& b) {
     const auto far = [](const VoxelIndex& v) { return std::int64_t{v.x} + v.y - v.z; };
     const std::int64_t far_a = far(a), far_b = far(b);
     return far_a != far_b ? far_a > far_b : a < b;  // the order of a hash map must not show
   });
-  // The floor lies under the lowest matter, not under the lowest free cell.
+  // The floor lies under the lowest matter, not under the lowest free voxel.
   box.first.z = lowest_matter(map, box).value_or(box.first.z);
-  IsoDrawing drawing(map, box, options.cell_px);
+  IsoDrawing drawing(map, box, options.voxel_px);
   const Columns columns(map, box);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
     const Column column = columns.at(x, y);
     if (column.free + column.occupied > 0) drawing.draw_floor(x, y);
   });
-  for (const VoxelIndex& cell : cells) drawing.draw_cell(cell);
+  for (const VoxelIndex& voxel : voxels) drawing.draw_voxel(voxel);
   return std::move(drawing).finish();
 }
 
