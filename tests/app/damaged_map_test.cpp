@@ -45,7 +45,8 @@ std::vector<std::vector<std::string>> readers() {
   return {{"info", "a.swl"},
           {"render", "a.swl", "-o", "a.png"},
           {"export", "a.swl", "--to", "ply", "-o", "a.ply"},
-          {"compare", "a.swl", "a.swl"}};
+          {"compare", "a.swl", "a.swl"},
+          {"plan", "a.swl", "--from", "1.1,0.4,0.4", "--to", "1.3,0.4,0.4", "--radius", "0.1"}};
 }
 
 TEST(DamagedMap, every_reader_keeps_the_rest_with_salvage_and_tells_what_is_missing) {

@@ -13,6 +13,8 @@
   X(record, "record live RealSense cameras")                  \
   X(view, "show a map in the browser")                        \
   X(render, "draw a map as a PNG picture")                    \
+  X(fly, "fly a simulated vehicle on nothing but its map")    \
+  X(plan, "find a path through a map")                        \
   X(export, "write a map in another program's format")        \
   X(compare, "count the voxels in which two maps differ")     \
   X(bench, "measure how fast maps are built, beside OctoMap") \

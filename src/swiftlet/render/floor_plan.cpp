@@ -17,6 +17,7 @@ constexpr int kLongTick_px = 12;
 constexpr Colour kPaper{255, 255, 255};
 constexpr Colour kInk{70, 70, 70};
 constexpr Colour kStartInk{214, 39, 40};
+constexpr Colour kPathInk{227, 26, 175};
 constexpr double kLeastTick_px = 4.0;  // between two ticks
 
 /// 1 m, or the first of 2, 5, 10, 20 .. that keeps ticks apart, however large the voxels.
@@ -92,7 +93,23 @@ void FloorPlan::draw_start() {
   fill_rectangle(picture_, u - 1, v - 6, u + 2, v + 7, kStartInk);
 }
 
-Picture FloorPlan::finish() && {
+void FloorPlan::draw_path(std::span<const Eigen::Vector3d> path) {
+  if (path.empty()) return;
+  const auto dot = [&](const Eigen::Vector3d& p, int half_px) {
+    const int u = column_px(p.y()), v = row_px(p.x());
+    fill_rectangle(picture_, u - half_px, v - half_px, u + half_px + 1, v + half_px + 1, kPathInk);
+  };
+  const double px_per_m = voxel_px_ / voxel_m_;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Eigen::Vector3d leg = path[i] - path[i - 1];
+    const int steps = whole_px(std::ceil(leg.head<2>().norm() * px_per_m)) + 1;
+    for (int k = 0; k <= steps; ++k) dot(path[i - 1] + leg * k / steps, 1);
+  }
+  dot(path.back(), 4);
+}
+
+Picture FloorPlan::finish(const ProjectionOptions& options) && {
+  draw_path(options.path);
   draw_ticks();
   draw_scale_bar();
   draw_start();

@@ -24,8 +24,8 @@ class FloorPlan {
   /// Colours the square of column (x, y). REQUIRES: the column lies in the box.
   void fill_column(std::int32_t x, std::int32_t y, Colour colour);
 
-  /// Draws ticks, scale bar and start over the voxels and hands the picture out.
-  [[nodiscard]] Picture finish() &&;
+  /// Draws the path, ticks, scale bar and start over the voxels and hands the picture out.
+  [[nodiscard]] Picture finish(const ProjectionOptions& options) &&;
 
  private:
   [[nodiscard]] int column_px(double y_m) const;  // pixel column of a world y
@@ -33,6 +33,7 @@ class FloorPlan {
   void draw_ticks();
   void draw_scale_bar();
   void draw_start();
+  void draw_path(std::span<const Eigen::Vector3d> path);
 
   VoxelBox box_;
   double voxel_m_;

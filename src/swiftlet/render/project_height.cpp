@@ -25,7 +25,7 @@ Picture draw_height(const BlockMap& map, const VoxelBox& whole, const Projection
     const Colour empty = column.free > 0 ? kFree : kUnseen;
     plan.fill_column(x, y, column.occupied > 0 ? height_colour(height) : empty);
   });
-  return std::move(plan).finish();
+  return std::move(plan).finish(options);
 }
 
 }  // namespace swiftlet::render

@@ -23,7 +23,7 @@ Picture draw_slice(const BlockMap& map, const VoxelBox& box, const ProjectionOpt
     const Colour known = voxel == Occupancy::kOccupied ? kOccupied : kFree;
     plan.fill_column(x, y, voxel == Occupancy::kUnknown ? kUnknown : known);
   });
-  return std::move(plan).finish();
+  return std::move(plan).finish(options);
 }
 
 }  // namespace swiftlet::render

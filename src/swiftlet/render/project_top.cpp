@@ -28,7 +28,7 @@ Picture draw_top(const BlockMap& map, const VoxelBox& whole, const ProjectionOpt
     }
     plan.fill_column(x, y, colour);
   });
-  return std::move(plan).finish();
+  return std::move(plan).finish(options);
 }
 
 }  // namespace swiftlet::render

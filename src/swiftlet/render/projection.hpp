@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "swiftlet/base/registry.hpp"
 #include "swiftlet/map/block_map.hpp"
@@ -16,6 +17,7 @@ namespace swiftlet::render {
 struct ProjectionOptions {
   std::optional<double> z_m;  ///< slice: its height; others: what lies above is cut away [m, world]
   int voxel_px = 0;           ///< edge of a voxel in the picture; 0 for what fits 1600 pixels
+  std::vector<Eigen::Vector3d> path{};  ///< drawn on pictures from above, with its end [m, world]
 };
 
 /// Draws the voxels of a map that lie inside a box which holds all that is known of it.

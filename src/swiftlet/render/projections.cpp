@@ -107,8 +107,9 @@ Expected<Picture> draw_projection(std::string_view projection, const BlockMap& m
   if (joined == 0) return tl::make_unexpected(no_picture(*box, map.voxel_m()));
   if (joined > 1) {
     const BlockMap small = coarser_map(map, joined);
-    return draw_projection(projection, small,
-                           {options.z_m, fitting_voxel_px(summarize(small).bounds.value_or(*box))});
+    return draw_projection(
+        projection, small,
+        {options.z_m, fitting_voxel_px(summarize(small).bounds.value_or(*box)), options.path});
   }
   ProjectionOptions fitted = options;
   if (fitted.voxel_px == 0) fitted.voxel_px = fitting_voxel_px(*box);

@@ -9,9 +9,11 @@
 #include <memory>
 
 #include "swiftlet/app/command.hpp"
+#include "swiftlet/app/commands/flight_experiment.hpp"
 #include "swiftlet/app/progress.hpp"
 #include "swiftlet/app/report/experiment_report.hpp"
 #include "swiftlet/app/visible_text.hpp"
+#include "swiftlet/eval/thesis/experiment.hpp"
 #include "swiftlet/file/text_output.hpp"
 
 namespace swiftlet::app {
@@ -20,6 +22,7 @@ namespace {
 struct ExperimentOptions {
   std::string name = "all";
   std::string out = "experiments";
+  FlightExperiment flights;
   bool as_json = false;
 };
 
@@ -48,7 +51,16 @@ void print(const std::vector<eval::ExperimentRun>& runs, const ExperimentOptions
   fmt::print("report: {}\n", (std::filesystem::path(options.out) / "report.html").string());
 }
 
+/// Not one of the thesis, and hours long if many flights are asked for: only by its name.
+Faults fly_experiment(const ExperimentOptions& options) {
+  FlightExperiment flights = options.flights;
+  flights.folder = options.out;
+  flights.as_json = options.as_json;
+  return run_flight_experiment(flights);
+}
+
 Faults experiment(const ExperimentOptions& options) {
+  if (options.name == "fly") return fly_experiment(options);
   if (auto made = make_folder(options.out); !made) return fault_of(std::move(made));
   std::vector<eval::ExperimentRun> runs;
   for (const auto& known : eval::experiments()) {
@@ -74,17 +86,25 @@ Faults experiment(const ExperimentOptions& options) {
 
 Action declare_experiment(CLI::App& parser) {
   auto o = std::make_shared<ExperimentOptions>();
-  parser.add_option("NAME", o->name, "one of 'swiftlet list experiments', or all")
+  parser.add_option("NAME", o->name, "one of 'swiftlet list experiments', all, or fly")
       ->type_name("")
       ->capture_default_str();
   parser.add_option("-o,--out", o->out, "folder for report.html, .csv, .svg and .png")
       ->type_name("FOLDER")
+      ->capture_default_str();
+  parser.add_option("--flights", o->flights.flights, "fly: of each kind of scene on each map")
+      ->type_name("N")
+      ->capture_default_str();
+  parser.add_option("--speed", o->flights.max_speed_mps, "fly: at most")
+      ->type_name("M/S")
       ->capture_default_str();
   parser.add_flag("--json", o->as_json, "the results as one JSON object, for machines");
   parser.footer(
       "Examples:\n"
       "  swiftlet experiment all -o experiments\n"
       "  swiftlet experiment large_box --json\n"
+      "  swiftlet experiment fly --flights 40 -o flights   random scenes, on our map and "
+      "OctoMap's\n"
       "Repeats the experiments of the thesis on the simulated rig and says of each whether its\n"
       "result was reproduced (exit code 1 if one was not). The report is one page that needs no\n"
       "network; gnuplot draws its figures.");

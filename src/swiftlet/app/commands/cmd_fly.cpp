@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "swiftlet/app/command.hpp"
+#include "swiftlet/app/commands/config_flags.hpp"
+#include "swiftlet/app/commands/place_option.hpp"
+#include "swiftlet/app/interrupt.hpp"
+#include "swiftlet/app/report/flight_summary.hpp"
+#include "swiftlet/config/config_file.hpp"
+#include "swiftlet/file/text_output.hpp"
+
+#if SWIFTLET_HAS_EMBREE
+#include "swiftlet/fly/flight_task.hpp"
+#include "swiftlet/fly/fly.hpp"
+#endif
+
+namespace swiftlet::app {
+
+#if SWIFTLET_HAS_EMBREE
+
+namespace {
+
+struct FlyCommand {
+  std::string scene;
+  std::optional<Eigen::Vector3d> to;
+  bool explores = false;
+  FlyOptions how;
+  std::optional<std::uint64_t> seed;
+  std::string map = "swiftlet";
+  ConfigInput config;
+  std::string track;
+  bool as_json = false;
+};
+
+Faults run_flight(FlyCommand command) {
+  auto task = read_flight_task(command.scene);
+  if (!task) return fault_of(std::move(task));
+  FlyOptions& how = command.how;
+  how.goal_m = command.explores ? std::nullopt : command.to ? command.to : task->goal_m;
+  if (!how.goal_m && !command.explores) {
+    return {{ErrorCode::kUsage, "fly", "there is no goal in this scene",
+             "say where --to x,y,z, or --explore"}};
+  }
+  how.bounds = task->bounds;
+  how.seed = command.seed.value_or(task->scene.seed);
+  auto config = load_config(command.config);
+  if (!config) return std::move(config).error();
+  how.mapper = config->mapper;
+  const MapperConfig flown = flown_config();
+  if (!config->places.contains("map.voxel_m")) how.mapper.map.voxel_m = flown.map.voxel_m;
+  if (!config->places.contains("depth.max_range_m"))
+    how.mapper.depth.max_range_m = flown.depth.max_range_m;
+  const InterruptGuard guard;
+  how.is_unwanted = [&] { return guard.is_interrupted(); };
+  auto map = make_flown_map(command.map, how.mapper);
+  if (!map) return fault_of(std::move(map));
+  how.counts_measured_time = command.map == "octomap";
+  const auto report = fly(task->scene, task->start, how, std::move(*map));
+  if (!report) return {report.error()};
+  if (!command.track.empty()) {
+    if (auto written = write_text(command.track, track_csv(*report)); !written)
+      return fault_of(std::move(written));
+  }
+  fmt::print("{}\n", command.as_json ? flight_json(*report) : flight_text(*report));
+  if (report->is_success()) return {};
+  return {{ErrorCode::kCorruptInput, command.scene,
+           fmt::format("the flight ended short of its task: {}", name_of(report->end)),
+           "the same command flies it again, to the bit"}};
+}
+
+void declare_how(CLI::App& parser, FlyCommand& command) {
+  const auto number = [&](const char* name, double& value, const char* unit, const char* what) {
+    parser.add_option(name, value, what)->type_name(unit)->capture_default_str();
+  };
+  number("--speed", command.how.max_speed_mps, "M/S", "at most");
+  number("--radius", command.how.body_radius_m, "METRES", "of the ball that holds the vehicle");
+  number("--margin", command.how.margin_m, "METRES", "kept from all that is not free");
+  number("--comfort", command.how.comfort_m, "METRES", "and so much more where it costs little");
+  number("--rate", command.how.rate_hz, "HZ", "of depth images");
+  number("--time-limit", command.how.time_limit_s, "SECONDS", "the flight ends after it");
+}
+
+}  // namespace
+
+Action declare_fly(CLI::App& parser) {
+  auto o = std::make_shared<FlyCommand>();
+  parser.add_option("SCENE", o->scene, "as in sim:apartment or random:forest?seed=7")
+      ->type_name("")
+      ->required();
+  CLI::Option* to = declare_place(parser, "--to", o->to, "where to; random scenes have a goal");
+  parser.add_flag("--explore", o->explores, "look at everything within reach, then fly home")
+      ->excludes(to);
+  parser.add_option("--seed", o->seed, "of noise, wind and planner (default: the scene's)")
+      ->type_name("N");
+  declare_how(parser, *o);
+  parser.add_option("--map", o->map, "what to fly on: swiftlet, octomap (at its own pace)")
+      ->check(CLI::IsMember({"swiftlet", "octomap"}).description(""))
+      ->type_name("MAP")
+      ->capture_default_str();
+  declare_config_flags(parser, o->config);
+  parser.add_option("--track", o->track, "where it flew, as CSV")->type_name("FILE");
+  parser.add_flag("--json", o->as_json, "one JSON object, for machines");
+  parser.footer(
+      "Examples:\n"
+      "  swiftlet fly sim:apartment --to 8.4,1.7,1.3\n"
+      "  swiftlet fly sim:apartment --explore\n"
+      "  swiftlet fly random:forest?seed=7 --speed 3 --json\n"
+      "Flies a simulated vehicle on nothing but the map that it makes on the way, and tells how\n"
+      "near it came to the true scene. Exit code 1 if it did not do what it was to.");
+  return [o] { return run_flight(*o); };
+}
+
+#else
+
+Action declare_fly(CLI::App& parser) {
+  parser.footer("Examples:\n  swiftlet fly: this build has no simulated rig to fly");
+  return [] {
+    return Faults{{ErrorCode::kUnsupported, "fly", "this build has no simulated rig",
+                   "install libembree-dev and configure with -DSWIFTLET_WITH_EMBREE=ON"}};
+  };
+}
+
+#endif
+
+}  // namespace swiftlet::app

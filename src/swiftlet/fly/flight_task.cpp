@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+#include "swiftlet/fly/flight_task.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "swiftlet/source/sim/sim_flight.hpp"
+
+namespace swiftlet {
+
+Expected<FlightTask> read_flight_task(std::string_view address) {
+  constexpr std::string_view kSim = "sim:";
+  if (address.starts_with(kSim)) address.remove_prefix(kSim.size());
+  auto flight = read_sim_flight(address);
+  if (!flight) return forward_error(std::move(flight));
+  FlightTask task;
+  if (flight->task) {
+    task.start = {flight->task->start_m, flight->task->start_yaw_rad};
+    task.goal_m = flight->task->goal_m;
+    task.bounds = SpaceBox{flight->task->bounds_m.min(), flight->task->bounds_m.max()};
+  } else {
+    const auto T = flight->scene.flight.camera_at(flight->options.start) *
+                   flight->scene.T_body_camera.inverse();
+    const Eigen::Vector3d ahead = T.rotation() * Eigen::Vector3d::UnitX();
+    task.start = {T.translation(), std::atan2(ahead.y(), ahead.x())};
+  }
+  task.scene = std::move(flight->scene);
+  return task;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright the Swiftlet authors
+
+// Whole flights through a small room with a wall across it, which leaves a gap at one end.
+
+#include "swiftlet/fly/fly.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace swiftlet {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+sim::Object wall(const Vector& from, const Vector& to) {
+  return {"wall", sim::Box{0.5 * (from + to), to - from}, 0};
+}
+
+/// 7 x 5 x 2.4 m inside; the wall stands at x = 3.4 m, the gap is at y from 3.6 m on.
+sim::Scene divided_room() {
+  sim::Scene scene;
+  scene.name = "divided room";
+  scene.objects = {
+      wall({-0.2, -0.2, -0.2}, {7.2, 5.2, 0.0}), wall({-0.2, -0.2, 2.4}, {7.2, 5.2, 2.6}),
+      wall({-0.2, -0.2, 0.0}, {0.0, 5.2, 2.4}),  wall({7.0, -0.2, 0.0}, {7.2, 5.2, 2.4}),
+      wall({0.0, -0.2, 0.0}, {7.0, 0.0, 2.4}),   wall({0.0, 5.0, 0.0}, {7.0, 5.2, 2.4}),
+      wall({3.4, 0.0, 0.0}, {3.6, 3.6, 2.4})};
+  scene.camera.width = 212;  // an eighth of the pixels: the loop is what is tested
+  scene.camera.height = 120;
+  return scene;
+}
+
+const FlightStart kStart{{1.2, 1.2, 1.2}, 0.0};
+
+FlyOptions options_to(const std::optional<Vector>& goal) {
+  FlyOptions options;
+  options.goal_m = goal;
+  options.time_limit_s = 120.0;
+  options.mapper.map.size_m = {16.0, 16.0, 6.0};
+  return options;
+}
+
+TEST(Fly, comes_to_the_goal_behind_the_wall_and_touches_nothing) {
+  const auto report = fly(divided_room(), kStart, options_to(Vector(5.8, 1.2, 1.2)));
+  ASSERT_TRUE(report) << report.error().text();
+  EXPECT_EQ(report->end, FlightEnd::kArrived) << name_of(report->end);
+  EXPECT_LT(report->goal_distance_m, 0.4);
+  EXPECT_GT(report->least_clearance_m, 0.05);
+  EXPECT_GT(report->length_m, 6.0);  // around the wall
+  EXPECT_LT(report->top_speed_mps, 2.3);
+}
+
+TEST(Fly, repeats_to_the_bit_and_differs_by_seed) {
+  FlyOptions options = options_to(Vector(5.8, 1.2, 1.2));
+  const auto first = fly(divided_room(), kStart, options);
+  const auto again = fly(divided_room(), kStart, options);
+  options.seed = 2;
+  const auto other = fly(divided_room(), kStart, options);
+  ASSERT_TRUE(first && again && other);
+  EXPECT_EQ(first->digest, again->digest);
+  EXPECT_EQ(first->known_m3, again->known_m3);
+  EXPECT_NE(first->digest, other->digest);
+}
+
+TEST(Fly, explores_the_room_and_comes_home) {
+  const auto report = fly(divided_room(), kStart, options_to(std::nullopt));
+  ASSERT_TRUE(report) << report.error().text();
+  EXPECT_EQ(report->end, FlightEnd::kExplored) << name_of(report->end);
+  EXPECT_LT(report->goal_distance_m, 0.4);
+  EXPECT_GT(report->known_share, 0.97);
+  EXPECT_GT(report->least_clearance_m, 0.05);
+}
+
+TEST(Fly, gives_up_on_a_goal_that_nothing_leads_to) {
+  sim::Scene scene = divided_room();
+  scene.objects.push_back(wall({3.4, 3.6, 0.0}, {3.6, 5.0, 2.4}));
+  const auto report = fly(scene, kStart, options_to(Vector(5.8, 1.2, 1.2)));
+  ASSERT_TRUE(report) << report.error().text();
+  EXPECT_EQ(report->end, FlightEnd::kStuck) << name_of(report->end);
+  EXPECT_GT(report->least_clearance_m, 0.05);
+}
+
+TEST(Fly, says_what_it_cannot_begin_with) {
+  const auto refused = [](const FlightStart& start, const FlyOptions& options) {
+    const auto report = fly(divided_room(), start, options);
+    return report ? std::string("it flew") : report.error().text();
+  };
+  FlyOptions options = options_to(Vector(5.8, 1.2, 1.2));
+  EXPECT_THAT(refused({{3.5, 1.0, 1.0}, 0.0}, options), testing::HasSubstr("inside something"));
+  options.max_speed_mps = 0.0;
+  EXPECT_THAT(refused(kStart, options), testing::HasSubstr("cannot be used"));
+  options = options_to(Vector(std::nan(""), 0.0, 0.0));
+  EXPECT_THAT(refused(kStart, options), testing::HasSubstr("cannot be used"));
+}
+
+}  // namespace
+}  // namespace swiftlet
