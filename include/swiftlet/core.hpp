@@ -36,6 +36,7 @@
 #include "swiftlet/map/log_odds_scale.hpp"
 #include "swiftlet/map/map_header.hpp"
 #include "swiftlet/map/map_snapshot.hpp"
+#include "swiftlet/map/map_window.hpp"
 #include "swiftlet/map/memory_archive.hpp"
 #include "swiftlet/map/occupancy_map.hpp"
 #include "swiftlet/map/rolling_map.hpp"

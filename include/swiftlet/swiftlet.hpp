@@ -34,6 +34,10 @@
 #include "swiftlet/store/opened_map.hpp"
 #include "swiftlet/store/stream/block_store.hpp"
 
+// Paths on the map: where a body can get to, and how.
+#include "swiftlet/plan/plan_path.hpp"
+#include "swiftlet/plan/reachable_space.hpp"
+
 // A map as a picture.
 #include "swiftlet/render/picture.hpp"
 #include "swiftlet/render/projection.hpp"

@@ -31,9 +31,11 @@ class ReachableSpace {
 
   /// The way to a voxel [m]; nullopt if there is none.
   [[nodiscard]] std::optional<double> path_m(const VoxelIndex& v) const;
+  /// The same, to the voxel that holds a place [m, world].
   [[nodiscard]] std::optional<double> path_m(const Eigen::Vector3d& p_world) const;
   /// The voxels of a shortest way there, from where the flood began; empty if there is none.
   [[nodiscard]] std::vector<VoxelIndex> way_to(const VoxelIndex& v) const;
+  /// Voxels that can be reached.
   [[nodiscard]] std::size_t voxel_count() const { return reached_; }
 
  private:
