@@ -12,6 +12,7 @@ pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)  # SIMD, with dispatch at
 # I/O: what swiftlet::swiftlet adds.
 find_package(SQLite3 REQUIRED)
 find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(yaml-cpp REQUIRED)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "support/recordings.hpp"
+#include "swiftlet/bag/open_recording.hpp"
 #include "swiftlet/sim/ply_reader.hpp"
 #include "swiftlet/sim/scene_file.hpp"
 #include "swiftlet/source/bag/bag_scan.hpp"
@@ -88,7 +89,7 @@ TEST(SceneFile, that_is_a_pipe_or_has_no_end_is_refused_at_once) {
 TEST(EveryBag, that_is_a_pipe_is_refused_at_once) {
   const test::TempFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-  EXPECT_THAT(error_of(open_bag(folder / "pipe")), HasSubstr("it is not a file"));
+  EXPECT_THAT(error_of(open_recording(folder / "pipe")), HasSubstr("it is not a file"));
 }
 
 }  // namespace

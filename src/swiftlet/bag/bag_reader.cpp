@@ -23,7 +23,6 @@ constexpr std::uint32_t kMaxConnectionBytes = 4U << 20U;  // holds the definitio
 constexpr std::uint64_t kFreeBz2Bytes = 16U << 20U;
 constexpr std::uint64_t kMaxBz2Growth = 64;
 constexpr std::size_t kMaxConnections = 65536;
-constexpr std::size_t kMaxNameBytes = 4096;
 
 }  // namespace
 
@@ -41,11 +40,24 @@ bool is_bag_file(const std::filesystem::path& path) {
 }
 
 tl::unexpected<Error> BagReader::corrupt(std::uint64_t offset, std::string what) {
+  end();
+  return fail(ErrorCode::kCorruptInput, fmt::format("{}: byte {}", bytes_->name(), offset),
+              std::move(what), "the recording is damaged there; copy it again");
+}
+
+void BagReader::end() {
   position_ = bytes_->size();  // nothing more is read
   chunk_.clear();
   chunk_position_ = 0;
-  return fail(ErrorCode::kCorruptInput, fmt::format("{}: byte {}", bytes_->name(), offset),
-              std::move(what), "the recording is damaged there; copy it again");
+}
+
+RecordingInfo BagReader::info() const {
+  constexpr std::array<const char*, 3> kNames{"none", "lz4", "bz2"};
+  RecordingInfo info{.format = "ROS bag 2.0", .chunks = chunks_};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (by_compression_[i] > 0) info.compression.insert(kNames[i]);
+  }
+  return info;
 }
 
 Expected<BagReader> BagReader::open(ByteSourcePtr bytes) {
@@ -61,7 +73,7 @@ Expected<BagReader> BagReader::open(ByteSourcePtr bytes) {
       return fail(ErrorCode::kUnsupported, name, "it is a ROS bag of another version than 2.0",
                   "convert it with `rosbag fix`");
     return fail(ErrorCode::kCorruptInput, name, "it is no ROS bag",
-                "RealSense recordings and `rosbag record` make such files; ROS 2 makes others");
+                "RealSense recordings and `rosbag record` make such files");
   }
   reader.position_ = kMagic.size();
   return reader;
@@ -156,9 +168,9 @@ Status BagReader::add_connection(const BagFields& header, std::span<const std::b
     if (connections_.at(*header.conn).topic == header.topic) return Done{};
     return corrupt(offset, "two topics of this chunk share one number");
   }
-  const bool is_modest = connections_.size() < kMaxConnections &&
-                         data.size() < kMaxConnectionBytes && header.topic.size() < kMaxNameBytes &&
-                         fields->type.size() < kMaxNameBytes;
+  const bool is_modest =
+      connections_.size() < kMaxConnections && data.size() < kMaxConnectionBytes &&
+      header.topic.size() < kMostNameBytes && fields->type.size() < kMostNameBytes;
   if (!is_modest) return corrupt(offset, "the topics of this chunk cannot be");
   connections_.emplace(*header.conn,
                        BagConnection{*header.conn, std::string(header.topic),
@@ -193,7 +205,7 @@ Expected<std::optional<BagMessage>> BagReader::next_in_chunk() {
   return std::nullopt;
 }
 
-Expected<std::optional<BagMessage>> BagReader::next() {
+Expected<std::optional<BagMessage>> BagReader::read_next() {
   while (true) {
     auto message = next_in_chunk();
     if (!message || *message) return message;

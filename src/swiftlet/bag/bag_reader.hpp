@@ -16,26 +16,11 @@
 
 #include "swiftlet/bag/bag_record.hpp"
 #include "swiftlet/bag/byte_source.hpp"
+#include "swiftlet/bag/recording_reader.hpp"
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/base/time.hpp"
 
 namespace swiftlet {
-
-/// A topic as one publisher wrote it.
-struct BagConnection {
-  std::uint32_t id = 0;
-  std::string topic;
-  std::string type;  ///< as in "sensor_msgs/Image"
-  std::string md5;   ///< of the type's definition
-};
-
-/// A serialised message; its bytes stay until the next call of BagReader::next().
-struct BagMessage {
-  const BagConnection* connection;
-  Stamp record_time;  ///< when it was written; RealSense recordings count from 0
-  std::span<const std::byte> data;
-  std::uint64_t offset;  ///< of its chunk in the file, for messages about it
-};
 
 /// Whether bytes begin as a ROS bag does, of this version of the format or another.
 [[nodiscard]] bool has_bag_magic(std::span<const std::byte> start);
@@ -49,24 +34,21 @@ struct BagMessage {
 /// topics. Nothing is allocated on the word of the file alone. Time: that of the file's size; a
 /// bzip2 that grows more than 64 times, beyond the first 16 MiB, is refused.
 /// Source: wiki.ros.org/Bags/Format/2.0.
-class BagReader {
+class BagReader final : public RecordingReader {
  public:
   /// Errors: kUnsupported for another version of the format, kCorruptInput if it is no bag.
   [[nodiscard]] static Expected<BagReader> open(ByteSourcePtr bytes);
 
-  /// The next message in the order of the file, which is that of writing; nullopt at the end.
-  /// Errors: kCorruptInput with the byte where it is wrong, kIo. The reader is then at its end.
-  [[nodiscard]] Expected<std::optional<BagMessage>> next();
-
-  /// All connections seen so far, by number.
-  [[nodiscard]] const std::map<std::uint32_t, BagConnection>& connections() const {
+  [[nodiscard]] const std::map<std::uint32_t, BagConnection>& connections() const override {
     return connections_;
   }
-  [[nodiscard]] std::uint64_t chunks_read() const { return chunks_; }
-  [[nodiscard]] const std::array<std::uint64_t, 3>& chunks_by_compression() const {
-    return by_compression_;
-  }
-  [[nodiscard]] const ByteSource& bytes() const { return *bytes_; }
+  [[nodiscard]] const std::string& name() const override { return bytes_->name(); }
+  [[nodiscard]] RecordingInfo info() const override;
+
+ protected:
+  /// In the order of the file, which is that of writing.
+  [[nodiscard]] Expected<std::optional<BagMessage>> read_next() override;
+  void end() override;
 
  private:
   explicit BagReader(ByteSourcePtr bytes) : bytes_(std::move(bytes)) {}

@@ -6,8 +6,10 @@
 #include <bzlib.h>
 #include <fmt/format.h>
 #include <lz4frame.h>
+#include <zstd.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 
@@ -16,12 +18,16 @@ namespace {
 
 constexpr std::size_t kStepBytes = 1U << 20U;
 
-/// What a decoder writes into: a vector that grows step by step up to the promised size. One byte
-/// more is offered, so that a stream that is longer than promised is noticed.
+/// What a decoder writes into: a vector that grows step by step up to the promised size, and keeps
+/// its memory for the next chunk. One byte more is offered, so that a stream that is longer than
+/// promised is noticed.
 class GrowingOutput {
  public:
-  GrowingOutput(std::vector<std::byte>& out, std::uint32_t size) : out_(out), limit_(size) {
-    out_.clear();
+  enum class Promise { kExactly, kAtMost };
+  GrowingOutput(std::vector<std::byte>& out, std::uint32_t size,
+                Promise promise = Promise::kExactly)
+      : out_(out), limit_(size), promise_(promise) {
+    if (out_.size() > limit_ + 1) out_.resize(limit_ + 1);
   }
   /// Room for the decoder.
   std::span<std::byte> room() {
@@ -32,7 +38,7 @@ class GrowingOutput {
   [[nodiscard]] bool is_too_long() const { return used_ > limit_; }
   [[nodiscard]] std::optional<std::string> finish() {
     out_.resize(used_);
-    if (used_ == limit_) return std::nullopt;
+    if (used_ == limit_ || (promise_ == Promise::kAtMost && !is_too_long())) return std::nullopt;
     return fmt::format("it unpacks to {} bytes where {} were promised", used_, limit_);
   }
 
@@ -40,6 +46,7 @@ class GrowingOutput {
   std::vector<std::byte>& out_;
   std::size_t limit_;
   std::size_t used_ = 0;
+  Promise promise_;
 };
 
 std::optional<std::string> unpack_lz4(std::span<const std::byte> packed, GrowingOutput output) {
@@ -88,7 +95,47 @@ std::optional<std::string> unpack_bz2(std::span<const std::byte> packed, Growing
   return output.finish();
 }
 
+/// The memory that a frame asks its reader for: writers of recordings take 8 MiB at most.
+constexpr int kMostWindowBits = 25;
+
+std::optional<std::string> unpack_zstd(std::span<const std::byte> packed, GrowingOutput output) {
+  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(),
+                                                                     ZSTD_freeDCtx);
+  if (!context) return "no memory for the Zstandard decoder";
+  ZSTD_DCtx_setParameter(context.get(), ZSTD_d_windowLogMax, kMostWindowBits);
+  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+  for (std::size_t hint = 1; hint != 0;) {
+    const auto room = output.room();
+    ZSTD_outBuffer out{room.data(), room.size(), 0};
+    const std::size_t before = in.pos;
+    hint = ZSTD_decompressStream(context.get(), &out, &in);
+    if (ZSTD_isError(hint) != 0U)
+      return fmt::format("its Zstandard data are damaged ({})", ZSTD_getErrorName(hint));
+    output.use(out.pos);
+    if (output.is_too_long()) break;
+    if (hint != 0 && out.pos == 0 && in.pos == before) return "its Zstandard data end too early";
+  }
+  return output.finish();
+}
+
 }  // namespace
+
+bool is_zstd(std::span<const std::byte> bytes) {
+  constexpr std::array<std::byte, 4> kMagic{std::byte{0x28}, std::byte{0xb5}, std::byte{0x2f},
+                                            std::byte{0xfd}};
+  return bytes.size() >= kMagic.size() && std::ranges::equal(bytes.first(kMagic.size()), kMagic);
+}
+
+std::optional<std::string> unpack_zstd_frame(std::span<const std::byte> packed,
+                                             std::vector<std::byte>& out) {
+  return unpack_zstd(packed, GrowingOutput(out, kMaxChunkBytes, GrowingOutput::Promise::kAtMost));
+}
+
+bool is_growth_plausible(std::uint64_t packed_bytes, std::uint64_t unpacked_bytes) {
+  constexpr std::uint64_t kFreeBytes = 64U << 20U;
+  constexpr std::uint64_t kMostGrowth = 1024;
+  return unpacked_bytes <= kFreeBytes + kMostGrowth * packed_bytes;
+}
 
 std::optional<std::string> unpack_chunk(std::string_view compression,
                                         std::span<const std::byte> packed, std::uint32_t size,
@@ -96,6 +143,7 @@ std::optional<std::string> unpack_chunk(std::string_view compression,
   if (size > kMaxChunkBytes || packed.size() > kMaxChunkBytes)
     return fmt::format("a chunk of {} bytes is larger than any camera writes", size);
   if (compression == "lz4") return unpack_lz4(packed, GrowingOutput(out, size));
+  if (compression == "zstd") return unpack_zstd(packed, GrowingOutput(out, size));
   if (compression == "bz2") return unpack_bz2(packed, GrowingOutput(out, size));
   if (compression != "none") return fmt::format("its compression '{}' is unknown", compression);
   if (packed.size() != size)

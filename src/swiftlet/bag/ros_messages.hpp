@@ -13,16 +13,16 @@
 #include <string_view>
 #include <vector>
 
+#include "swiftlet/bag/messages/serialized_message.hpp"
 #include "swiftlet/base/time.hpp"
 
-// The ROS 1 messages that a mapper needs, read from their serialised form: little-endian, no
-// padding, strings and lists behind four bytes of length. Each parser returns nullopt unless the
-// bytes are exactly one such message. Views point into the bytes.
+// The messages of ROS that a mapper needs, whichever ROS has serialised them. Each parser returns
+// nullopt unless the bytes are exactly one such message. Views point into the bytes.
 
 namespace swiftlet::ros {
 
 struct Header {
-  std::uint32_t seq = 0;
+  std::uint32_t seq = 0;  ///< 0 in ROS 2, which has none
   Stamp stamp;
   std::string_view frame_id;
 };
@@ -38,6 +38,34 @@ struct Image {
   std::span<const std::byte> data;
   /// RealSense SDK 2.49 and later write it behind the message, without another type name.
   std::optional<float> depth_unit_m;
+};
+
+/// sensor_msgs/CompressedImage.
+struct CompressedImage {
+  Header header;
+  std::string_view format;  ///< as in "16UC1; compressedDepth png"
+  std::span<const std::byte> data;
+};
+
+/// sensor_msgs/PointField.
+struct PointField {
+  static constexpr std::uint8_t kFloat32 = 7;
+  std::string_view name;
+  std::uint32_t offset = 0;  ///< in a point [bytes]
+  std::uint8_t datatype = 0;
+  std::uint32_t count = 0;
+};
+
+/// sensor_msgs/PointCloud2.
+struct PointCloud {
+  Header header;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;  ///< above 1: organised as an image
+  std::vector<PointField> fields;
+  bool is_big_endian = false;
+  std::uint32_t point_step = 0;  ///< bytes a point
+  std::uint32_t row_step = 0;
+  std::span<const std::byte> data;
 };
 
 /// The part of a sensor that an image shows [px]; all 0: the whole.
@@ -83,18 +111,24 @@ struct KeyValue {
   std::string_view value;
 };
 
-using Bytes = std::span<const std::byte>;
+[[nodiscard]] std::optional<Image> parse_image(const SerializedMessage& message);
+[[nodiscard]] std::optional<CompressedImage> parse_compressed_image(
+    const SerializedMessage& message);
+[[nodiscard]] std::optional<PointCloud> parse_point_cloud(const SerializedMessage& message);
+[[nodiscard]] std::optional<CameraInfo> parse_camera_info(const SerializedMessage& message);
+[[nodiscard]] std::optional<Pose> parse_transform(const SerializedMessage& message);
+[[nodiscard]] std::optional<KeyValue> parse_key_value(const SerializedMessage& message);
+[[nodiscard]] std::optional<float> parse_float32(const SerializedMessage& message);
+[[nodiscard]] std::optional<std::uint32_t> parse_uint32(const SerializedMessage& message);
 
-[[nodiscard]] std::optional<Image> parse_image(Bytes bytes);
-[[nodiscard]] std::optional<CameraInfo> parse_camera_info(Bytes bytes);
-[[nodiscard]] std::optional<Pose> parse_transform(Bytes bytes);
-[[nodiscard]] std::optional<KeyValue> parse_key_value(Bytes bytes);
-[[nodiscard]] std::optional<float> parse_float32(Bytes bytes);
-[[nodiscard]] std::optional<std::uint32_t> parse_uint32(Bytes bytes);
+/// The frames that a message names: of a type that begins with a header, its own; of tf, each
+/// child. Empty for types that tell none, and for what is no such message.
+[[nodiscard]] std::vector<std::string> parse_frames(std::string_view type,
+                                                    const SerializedMessage& message);
 
 /// The poses of a message of one of kPoseTypes; a tf message may hold many, the others hold one.
 [[nodiscard]] std::optional<std::vector<StampedPose>> parse_poses(std::string_view type,
-                                                                  Bytes bytes);
+                                                                  const SerializedMessage& message);
 inline constexpr std::array<std::string_view, 6> kPoseTypes{
     "nav_msgs/Odometry",
     "geometry_msgs/PoseStamped",

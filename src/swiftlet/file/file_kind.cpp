@@ -20,6 +20,8 @@ using namespace std::string_view_literals;
 constexpr std::size_t kHead = 4096;
 constexpr const char* kTexts =
     "'swiftlet check' reads configs, rigs and scenes; 'swiftlet map' takes lists of poses";
+constexpr const char* kMapBag =
+    "map it with 'swiftlet map bag:FILE', look at it with 'swiftlet info'";
 constexpr const char* kUnpack = "unpack it and give what is inside";
 
 struct Signature {
@@ -31,12 +33,10 @@ struct Signature {
 constexpr std::array kSignatures{
     Signature{"# Octomap OcTree binary file"sv, FileKind::kOctomap, "an OctoMap (.bt)", ""},
     Signature{"# Octomap OcTree file"sv, FileKind::kOctomap, "an OctoMap (.ot)", ""},
-    Signature{"#ROSBAG V2.0"sv, FileKind::kBag, "a ROS bag",
-              "map it with 'swiftlet map bag:FILE', look at it with 'swiftlet info'"},
+    Signature{"#ROSBAG V2.0"sv, FileKind::kBag, "a ROS bag", kMapBag},
     Signature{"#ROSRECORD V1"sv, FileKind::kOther, "a ROS bag of an old version",
               "turn it into version 2.0 with 'rosbag fix'"},
-    Signature{"\x89MCAP0\r\n"sv, FileKind::kOther, "an MCAP recording, of ROS 2",
-              "turn it into a ROS 1 bag with 'rosbags-convert'"},
+    Signature{"\x89MCAP0\r\n"sv, FileKind::kBag, "an MCAP recording", kMapBag},
     Signature{"\x89PNG\r\n\x1a\n"sv, FileKind::kOther, "a PNG picture", ""},
     Signature{"\xff\xd8\xff"sv, FileKind::kOther, "a JPEG picture", ""},
     Signature{"%PDF"sv, FileKind::kOther, "a PDF", ""},

@@ -16,7 +16,7 @@ namespace swiftlet {
 enum class FileKind : std::uint8_t {
   kMap,      ///< a Swiftlet map
   kOctomap,  ///< .bt or .ot
-  kBag,      ///< ROS bag 2.0
+  kBag,      ///< a recording of ROS
   kText,     ///< perhaps a config, a rig or a scene
   kOther,    ///< something that we know, or not, but do not read
 };
@@ -27,7 +27,8 @@ struct FileFacts {
   std::string remedy;  ///< what to do with such a file instead; may be empty
 };
 
-/// What a file is, by its first bytes. Errors: those of read_head().
+/// What a file is, by its first bytes; look_at_file_or_recording() knows more recordings. Errors:
+/// those of read_head().
 [[nodiscard]] Expected<FileFacts> look_at_file(const std::filesystem::path& path);
 
 /// The error of a command that wants something else: "it is a PNG picture, not a map".

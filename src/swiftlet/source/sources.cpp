@@ -9,16 +9,17 @@
 // A source is one file and one line here: ALWAYS or the build option SWIFTLET_WITH_... that it
 // needs, the name the user types, the function at the end of its file, and a sentence for
 // `swiftlet list`.
-#define SWIFTLET_SOURCES(X)                                                                     \
-  X(ALWAYS, "7scenes", open_seven_scenes_source,                                                \
-    "folder of depth images and poses by frame number")                                         \
-  X(ALWAYS, "tum", open_tum_source,                                                             \
-    "TUM RGB-D folder: depth.txt and groundtruth.txt, joined by time")                          \
-  X(ALWAYS, "bag", open_bag_source, "RealSense recording or ROS 1 bag: bag:depth.bag,pose.bag") \
-  X(ALWAYS, "openloris", open_openloris_source,                                                 \
-    "OpenLORIS-Scene folder: a D435i on a robot that a T265 rides too")                         \
-  X(REALSENSE, "realsense", open_realsense_source,                                              \
-    "live RealSense D400 and T265: realsense: or realsense:SERIAL")                             \
+#define SWIFTLET_SOURCES(X)                                             \
+  X(ALWAYS, "7scenes", open_seven_scenes_source,                        \
+    "folder of depth images and poses by frame number")                 \
+  X(ALWAYS, "tum", open_tum_source,                                     \
+    "TUM RGB-D folder: depth.txt and groundtruth.txt, joined by time")  \
+  X(ALWAYS, "bag", open_bag_source,                                     \
+    "recording of RealSense, ROS 1 or ROS 2: bag:depth.bag,pose.bag")   \
+  X(ALWAYS, "openloris", open_openloris_source,                         \
+    "OpenLORIS-Scene folder: a D435i on a robot that a T265 rides too") \
+  X(REALSENSE, "realsense", open_realsense_source,                      \
+    "live RealSense D400 and T265: realsense: or realsense:SERIAL")     \
   X(EMBREE, "sim", open_sim_source, "simulated D435 and T265 in a built-in scene or a .yaml file")
 
 namespace swiftlet {

@@ -14,7 +14,7 @@
 #include "swiftlet/app/report/salvage_report.hpp"
 #include "swiftlet/app/report/summary.hpp"
 #include "swiftlet/app/visible_text.hpp"
-#include "swiftlet/file/file_kind.hpp"
+#include "swiftlet/bag/file_or_recording.hpp"
 #include "swiftlet/session/flight_file.hpp"
 #include "swiftlet/store/opened_map.hpp"
 
@@ -115,12 +115,12 @@ Faults info_on_octomap(const InfoOptions& options) {
 }
 
 Faults info(const InfoOptions& options) {
-  auto facts = look_at_file(options.map);
+  auto facts = look_at_file_or_recording(options.map);
   if (!facts) return fault_of(std::move(facts));
   if (facts->kind == FileKind::kBag) return info_on_bag(options);
   if (facts->kind == FileKind::kOctomap) return info_on_octomap(options);
   if (facts->kind != FileKind::kMap && !options.is_salvaged)
-    return {wrong_kind(options.map, *facts, "a map (.swl, .bt or .ot) or a ROS bag")};
+    return {wrong_kind(options.map, *facts, "a map (.swl, .bt or .ot) or a recording of ROS")};
   auto map = open_and_tell(options.map, options.is_salvaged);
   if (!map) return fault_of(std::move(map));
   auto summary = summarize(map->file);
@@ -134,7 +134,7 @@ Faults info(const InfoOptions& options) {
 
 Action declare_info(CLI::App& parser) {
   auto o = std::make_shared<InfoOptions>();
-  parser.add_option("MAP", o->map, "map file: .swl, .bt or .ot; or a ROS bag")
+  parser.add_option("MAP", o->map, "map file: .swl, .bt or .ot; or a recording of ROS")
       ->type_name("")
       ->required();
   parser.add_flag("--json", o->as_json, "one JSON object, for machines");
@@ -143,7 +143,8 @@ Action declare_info(CLI::App& parser) {
       "Examples:\n"
       "  swiftlet info flat.swl\n"
       "  swiftlet info flat.swl --json | jq .voxels\n"
-      "  swiftlet info flight.bag       lists its topics and what of them would be mapped");
+      "  swiftlet info flight.mcap      lists its topics and what of them would be mapped; .db3,\n"
+      "                                 .bag and the folder of `ros2 bag record`, too");
   return [o] { return info(*o); };
 }
 

@@ -7,11 +7,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
 
 #include "swiftlet/app/report/summary.hpp"
 #include "swiftlet/app/visible_text.hpp"
-#include "swiftlet/bag/bag_reader.hpp"
+#include "swiftlet/bag/open_recording.hpp"
 #include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/source/bag/bag_streams.hpp"
 
@@ -20,25 +23,35 @@ namespace {
 
 constexpr std::string_view kDeviceInfo = "/device_0/info";
 
+void add_time(Stamp t, BagTopicSummary& topic) {
+  if (topic.messages++ == 0) topic.first = topic.last = topic.newest = t;
+  if (t - topic.newest > topic.longest_gap) {
+    topic.longest_gap = t - topic.newest;
+    topic.gap_begin = topic.newest;
+  }
+  topic.newest = t;
+  topic.first = std::min(topic.first, t);
+  topic.last = std::max(topic.last, t);
+}
+
 void add(const BagMessage& message, BagSummary& summary) {
-  const auto [place, is_new] = summary.topics.try_emplace(message.connection->topic);
-  BagTopicSummary& topic = place->second;
-  if (is_new) topic = {message.connection->type, 0, message.record_time, message.record_time};
-  ++topic.messages;
-  topic.first = std::min(topic.first, message.record_time);
-  topic.last = std::max(topic.last, message.record_time);
+  BagTopicSummary& topic = summary.topics[message.connection->topic];
+  topic.type = message.connection->type;
+  topic.is_read = message.connection->encoding != MessageEncoding::kOther;
+  add_time(message.record_time, topic);
+  if (topic.frames.size() < BagTopicSummary::kMostFrames) {
+    for (std::string& frame : ros::parse_frames(topic.type, message.serialized()))
+      topic.frames.insert(std::move(frame));
+  }
   if (message.connection->topic != kDeviceInfo) return;
-  if (const auto pair = ros::parse_key_value(message.data))
+  if (const auto pair = ros::parse_key_value(message.serialized()))
     summary.device.emplace_back(pair->key, pair->value);
 }
 
-std::string compression_of(const BagReader& reader) {
-  constexpr std::array<std::string_view, 3> kNames{"none", "lz4", "bz2"};
-  std::vector<std::string_view> used;
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (reader.chunks_by_compression()[i] > 0) used.push_back(kNames[i]);
-  }
-  return fmt::format("{}", fmt::join(used, ", "));
+/// Topics without a message, too.
+void add_silent(const RecordingReader& reader, BagSummary& summary) {
+  for (const auto& [number, connection] : reader.connections())
+    summary.topics[connection.topic].type = connection.type;
 }
 
 /// What would be mapped without another option, or why nothing would be.
@@ -49,31 +62,63 @@ void add_choices(BagSummary& summary) {
   summary.choices.push_back(poses ? poses->told : "no poses: " + poses.error().what);
 }
 
-double duration_s(const BagTopicSummary& topic) { return seconds(topic.last - topic.first); }
+std::string how_text(const RecordingInfo& how) {
+  std::string text = how.format;
+  if (how.files != 1) text += fmt::format(", {} files", how.files);
+  if (how.chunks > 0)
+    text += fmt::format(", {} chunks ({})", how.chunks, fmt::join(how.compression, ", "));
+  return text + (how.is_closed ? "" : ", not closed by its recorder");
+}
+
+std::string topic_text(const BagTopicSummary& topic) {
+  std::string text = visible(topic.type);
+  if (const auto rate_hz = topic.rate_hz())
+    text += fmt::format(", {:.1f} s, {:.1f} Hz", topic.duration_s(), *rate_hz);
+  if (topic.has_gap())
+    text += fmt::format(", gap of {:.2f} s after {:.2f} s", seconds(topic.longest_gap),
+                        seconds(topic.gap_begin - topic.first));
+  for (const std::string& frame : topic.frames)
+    text += (frame == *topic.frames.begin() ? ", of " : " ") + visible(frame);
+  return text + (topic.is_read ? "" : ", in an encoding that is not read");
+}
 
 }  // namespace
 
+std::optional<double> BagTopicSummary::rate_hz() const {
+  if (messages < 2 || duration_s() <= 0.0) return std::nullopt;
+  return static_cast<double>(messages - 1) / duration_s();
+}
+
+bool BagTopicSummary::has_gap() const {
+  constexpr double kOfRhythm = 3.0;
+  constexpr std::uint64_t kFewest = 5;
+  const auto hz = rate_hz();
+  return hz && messages >= kFewest && seconds(longest_gap) * *hz > kOfRhythm;
+}
+
 Expected<BagSummary> summarize_bag(const std::string& path) {
-  auto bytes = open_file_bytes(path);
-  if (!bytes) return forward_error(std::move(bytes));
-  BagSummary summary{.path = path, .bytes = (*bytes)->size()};
-  auto reader = BagReader::open(std::move(*bytes));
+  auto reader = open_recording(path);
   if (!reader) return forward_error(std::move(reader));
+  BagSummary summary{.path = path};
+  std::error_code is_folder;
+  const auto bytes = std::filesystem::file_size(path, is_folder);
+  if (!is_folder) summary.bytes = bytes;
   while (true) {
-    auto message = reader->next();
+    auto message = (*reader)->next();
     if (!message) summary.fault = message.error();
     if (!message || !*message) break;
     add(**message, summary);
   }
-  summary.chunks = reader->chunks_read();
-  summary.compression = compression_of(*reader);
+  add_silent(**reader, summary);
+  summary.how = (*reader)->info();
   if (!summary.fault) add_choices(summary);
   return summary;
 }
 
 std::string bag_text(const BagSummary& bag) {
-  std::string text = fmt::format("{} ({}): ROS bag 2.0, {} chunks ({})\n", visible(bag.path),
-                                 size_text(bag.bytes), bag.chunks, bag.compression);
+  std::string text =
+      fmt::format("{}{}: {}\n", visible(bag.path),
+                  bag.bytes > 0 ? " (" + size_text(bag.bytes) + ")" : "", how_text(bag.how));
   for (const auto& [name, value] : bag.device) {
     if (name == "Name" || name == "Serial Number" || name == "Firmware Version")
       text += fmt::format("  {:<16} {}\n", name, visible(value));
@@ -81,24 +126,22 @@ std::string bag_text(const BagSummary& bag) {
   std::size_t width = 0;
   for (const auto& [name, topic] : bag.topics) width = std::max(width, visible(name).size());
   for (const auto& [name, topic] : bag.topics) {
-    text += fmt::format("  {:<{}}  {:>7}  {}", visible(name), width, topic.messages,
-                        visible(topic.type));
-    if (topic.messages > 1 && duration_s(topic) > 0.0) {
-      text += fmt::format(", {:.1f} s, {:.1f} Hz", duration_s(topic),
-                          static_cast<double>(topic.messages - 1) / duration_s(topic));
-    }
-    text += "\n";
+    text += fmt::format("  {:<{}}  {:>7}  {}\n", visible(name), width, topic.messages,
+                        topic_text(topic));
   }
   for (const std::string& choice : bag.choices) text += fmt::format("  would map: {}\n", choice);
   return text;
 }
 
 std::string bag_json(const BagSummary& bag) {
-  nlohmann::ordered_json json{{"path", bag.path},
-                              {"bytes", bag.bytes},
-                              {"format", "ROS bag 2.0"},
-                              {"chunks", bag.chunks},
-                              {"compression", bag.compression}};
+  nlohmann::ordered_json json{
+      {"path", bag.path},
+      {"bytes", bag.bytes},
+      {"format", bag.how.format},
+      {"files", bag.how.files},
+      {"is_closed", bag.how.is_closed},
+      {"chunks", bag.how.chunks},
+      {"compression", fmt::format("{}", fmt::join(bag.how.compression, ", "))}};
   for (const auto& [name, value] : bag.device) json["device"][name] = value;
   json["topics"] = nlohmann::ordered_json::array();
   for (const auto& [name, topic] : bag.topics) {
@@ -106,7 +149,9 @@ std::string bag_json(const BagSummary& bag) {
                               {"type", topic.type},
                               {"messages", topic.messages},
                               {"first_ns", topic.first.ns},
-                              {"last_ns", topic.last.ns}});
+                              {"last_ns", topic.last.ns},
+                              {"longest_gap_s", seconds(topic.longest_gap)},
+                              {"frames", topic.frames}});
   }
   json["would_map"] = bag.choices;
   return json_text(json) + "\n";

@@ -12,9 +12,9 @@
 
 #include "swiftlet/app/config_warnings.hpp"
 #include "swiftlet/app/report/bag_summary.hpp"
+#include "swiftlet/bag/file_or_recording.hpp"
 #include "swiftlet/config/config_file.hpp"
 #include "swiftlet/file/file_content.hpp"
-#include "swiftlet/file/file_kind.hpp"
 #include "swiftlet/file/yaml_document_private.hpp"
 #include "swiftlet/source/rig/rig_file.hpp"
 #include "swiftlet/store/export/octomap_import.hpp"
@@ -93,7 +93,7 @@ Faults faults_in_yaml(const std::string& path) {
 }  // namespace
 
 Faults faults_in_file(const std::string& path) {
-  auto facts = look_at_file(path);
+  auto facts = look_at_file_or_recording(path);
   if (!facts) return fault_of(std::move(facts));
   switch (facts->kind) {
     case FileKind::kMap:

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -13,21 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "swiftlet/bag/bag_reader.hpp"
+#include "swiftlet/bag/open_recording.hpp"
 #include "swiftlet/source/bag/bag_streams.hpp"
 
 namespace swiftlet {
 
-[[nodiscard]] inline Expected<BagReader> open_bag(const std::filesystem::path& path) {
-  auto bytes = open_file_bytes(path);
-  if (!bytes) return forward_error(std::move(bytes));
-  return BagReader::open(std::move(*bytes));
-}
-
 /// Reads a bag from its beginning until visit(message) returns true; the result tells whether it
-/// did. Errors: those of BagReader.
+/// did. Errors: those of RecordingReader.
 template <class Visit>
-[[nodiscard]] Expected<bool> scan_bag(BagReader& reader, Visit&& visit) {
+[[nodiscard]] Expected<bool> scan_bag(RecordingReader& reader, Visit&& visit) {
   while (true) {
     auto message = reader.next();
     if (!message) return forward_error(std::move(message));
@@ -36,16 +28,10 @@ template <class Visit>
   }
 }
 
-/// "camera.bag: byte 4117 (/depth)", for messages about a message.
-[[nodiscard]] inline std::string place_of(const BagReader& reader, const BagMessage& message) {
-  return fmt::format("{}: byte {} ({})", reader.bytes().name(), message.offset,
-                     message.connection->topic);
-}
-
 /// The error for a bag without what was asked for; names what there is instead, and what is nearest
 /// to what the user has typed.
-[[nodiscard]] tl::unexpected<Error> no_such_topic(const BagReader& reader, std::string_view what,
-                                                  std::string_view remedy,
+[[nodiscard]] tl::unexpected<Error> no_such_topic(const RecordingReader& reader,
+                                                  std::string_view what, std::string_view remedy,
                                                   std::string_view typed = {});
 
 /// A name of ROS without the slash that some write before it: "/base_link" is base_link.
@@ -59,7 +45,8 @@ template <class Visit>
 [[nodiscard]] std::string names_instead(std::string_view typed,
                                         const std::vector<std::string>& known);
 
-// The two kinds of bags, each behind the same two doors. nullopt: it is a bag of the other kind.
+// The two kinds of recordings, the SDK's and those of ROS, each behind the same two doors. nullopt:
+// it is one of the other kind.
 [[nodiscard]] Expected<std::optional<BagDepth>> open_realsense_depth(
     const std::filesystem::path& path);
 [[nodiscard]] Expected<std::optional<BagPoses>> open_realsense_poses(

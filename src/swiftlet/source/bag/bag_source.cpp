@@ -15,7 +15,7 @@
 #include "swiftlet/source/rig/rig_options.hpp"
 #include "swiftlet/source/rig/world_axes.hpp"
 
-// bag:FILE[,FILE...][?option=value&...]: recordings of the RealSense SDK and plain ROS 1 bags
+// bag:FILE[,FILE...][?option=value&...]: recordings of the RealSense SDK and of ROS
 // (docs/rig.md). One file holds images and poses; of several, the last holds the poses.
 
 namespace swiftlet {

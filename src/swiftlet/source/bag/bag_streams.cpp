@@ -11,9 +11,11 @@
 #include <cstdint>
 #include <set>
 #include <span>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "swiftlet/bag/byte_source.hpp"
 #include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/base/nearest_name.hpp"
 #include "swiftlet/source/bag/bag_scan.hpp"
@@ -22,17 +24,20 @@
 namespace swiftlet {
 namespace {
 
-// Static transforms are recorded when the recorder starts; a chunk is about one image.
-constexpr std::uint64_t kChunksWithStatics = 200;
+// Static transforms are recorded when the recorder starts; an image has about a megabyte.
+constexpr std::uint64_t kBytesWithStatics = 200U << 20U;
 
-/// Whether a file is text, by its first bytes: neither zeros nor a bag.
+/// Whether a file is text, by its first bytes: neither zeros nor a recording.
 Expected<bool> is_text(const std::filesystem::path& path) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) return false;
   auto bytes = open_file_bytes(path);
   if (!bytes) return forward_error(std::move(bytes));
   std::array<std::byte, 512> start{};
   const auto head = std::span(start).first(std::min<std::uint64_t>(512, (*bytes)->size()));
   if (auto read = (*bytes)->read(0, head); !read) return forward_error(std::move(read));
-  return !has_bag_magic(head) && std::ranges::find(head, std::byte{0}) == head.end();
+  return recording_kind(head) == RecordingKind::kNone &&
+         std::ranges::find(head, std::byte{0}) == head.end();
 }
 
 }  // namespace
@@ -46,7 +51,7 @@ std::string names_instead(std::string_view typed, const std::vector<std::string>
                      shown < known.size() ? fmt::format(" and {} more", known.size() - shown) : "");
 }
 
-tl::unexpected<Error> no_such_topic(const BagReader& reader, std::string_view what,
+tl::unexpected<Error> no_such_topic(const RecordingReader& reader, std::string_view what,
                                     std::string_view remedy, std::string_view typed) {
   std::set<std::string> topics;
   for (const auto& [id, connection] : reader.connections()) {
@@ -57,7 +62,7 @@ tl::unexpected<Error> no_such_topic(const BagReader& reader, std::string_view wh
       topics.insert(connection.topic);
   }
   const std::vector<std::string> known(topics.begin(), topics.end());
-  return fail(ErrorCode::kNotFound, reader.bytes().name(), std::string(what),
+  return fail(ErrorCode::kNotFound, reader.name(), std::string(what),
               fmt::format("{}; {} (`swiftlet info` lists all topics)", remedy,
                           topics.empty() ? "it has neither images nor poses"
                                          : names_instead(typed, known)));
@@ -87,15 +92,16 @@ Expected<BagPoses> open_bag_poses(const std::filesystem::path& path, const BagTo
 Expected<Transform<Body, Camera>> mount_from_tf(const std::filesystem::path& path,
                                                 const std::string& body_frame,
                                                 const std::string& camera_frame) {
-  auto reader = open_bag(path);
-  if (!reader) return forward_error(std::move(reader));
-  FrameTree tree;
   const std::string body = std::string(plain_name(body_frame));
   const std::string camera = std::string(plain_name(camera_frame));
-  auto found = scan_bag(*reader, [&](const BagMessage& message) {
+  if (body == camera) return Transform<Body, Camera>{};
+  auto reader = open_recording(path);
+  if (!reader) return forward_error(std::move(reader));
+  FrameTree tree;
+  auto found = scan_bag(**reader, [&](const BagMessage& message) {
     const std::string& topic = message.connection->topic;
-    if (topic != "/tf_static") return reader->chunks_read() > kChunksWithStatics;
-    const auto poses = ros::parse_poses(message.connection->type, message.data);
+    if (topic != "/tf_static") return (*reader)->bytes_read() > kBytesWithStatics;
+    const auto poses = ros::parse_poses(message.connection->type, message.serialized());
     if (!poses) return false;
     for (const ros::StampedPose& pose : *poses) {
       // One that is no transform ties nothing; if it was needed, the chain is not found.

@@ -45,15 +45,16 @@ struct BagPoses {
 
 /// Opens the depth images of a RealSense recording or of a ROS 1 bag; poses also of a text file
 /// with lines as in TUM's trajectories. What a file is, its content tells and not its name.
-/// Errors: those of BagReader; kNotFound naming the topics there are; those of the intrinsics.
+/// Errors: those of RecordingReader; kNotFound naming the topics there are; those of the
+/// intrinsics.
 [[nodiscard]] Expected<BagDepth> open_bag_depth(const std::filesystem::path& path,
                                                 const BagTopics& topics);
 [[nodiscard]] Expected<BagPoses> open_bag_poses(const std::filesystem::path& path,
                                                 const BagTopics& topics);
 
 /// The mount that the /tf_static messages of a ROS bag tell: `camera_frame` in `body_frame`.
-/// Errors: those of BagReader; kNotFound, naming the frames there are, if there is no chain between
-/// the two near the beginning of the file.
+/// Errors: those of RecordingReader; kNotFound, naming the frames there are, if there is no chain
+/// between the two near the beginning of the file.
 [[nodiscard]] Expected<Transform<Body, Camera>> mount_from_tf(const std::filesystem::path& path,
                                                               const std::string& body_frame,
                                                               const std::string& camera_frame);

@@ -18,8 +18,8 @@
 namespace swiftlet {
 namespace {
 
-constexpr int kPlainly = 3;                     // evidence: depth by encoding and name, or so
-constexpr std::uint64_t kChunksToCompare = 60;  // a chunk is about one image
+constexpr int kPlainly = 3;  // evidence: depth by encoding and name, or so
+constexpr std::uint64_t kBytesToCompare = 60U << 20U;  // an image has about one
 constexpr std::size_t kMostCandidates = 64;
 
 /// Whether a name has that word, set off by anything but a letter: "/ir/image" and "ir2", not
@@ -81,13 +81,13 @@ void note_image(const BagMessage& message, const ros::Image& image,
 
 /// Depth that is not read, PNG or RVL behind a header of image_transport: the error that names it
 /// and says what to do; nullopt if there is none.
-std::optional<Error> compressed_depth(const BagReader& reader, std::string_view what) {
+std::optional<Error> compressed_depth(const RecordingReader& reader, std::string_view what) {
   for (const auto& [id, connection] : reader.connections()) {
     constexpr std::string_view kEnd = "/compressedDepth";
     const std::string& topic = connection.topic;
     if (connection.type != "sensor_msgs/CompressedImage" || !topic.ends_with(kEnd)) continue;
     const std::string plain = topic.substr(0, topic.size() - kEnd.size());
-    return Error{ErrorCode::kUnsupported, reader.bytes().name(),
+    return Error{ErrorCode::kUnsupported, reader.name(),
                  fmt::format("{}, but compressed depth on {}, which is not read", what, topic),
                  fmt::format("play the bag through `rosrun image_transport republish "
                              "compressedDepth in:={} raw out:=/depth/image_raw`, record that, and "
@@ -116,28 +116,29 @@ std::string DepthCandidate::text() const {
   return fmt::format("{} ({}, {} x {}{})", topic, encoding, width, height, rate);
 }
 
-Expected<std::vector<DepthCandidate>> survey_depth(BagReader& reader, std::string_view wanted) {
+Expected<std::vector<DepthCandidate>> survey_depth(RecordingReader& reader,
+                                                   std::string_view wanted) {
   std::vector<DepthCandidate> candidates;
-  std::optional<std::uint64_t> enough;  // chunks, from which on it need not go on
+  std::optional<std::uint64_t> enough;  // bytes, from which on it need not go on
   auto scanned = scan_bag(reader, [&](const BagMessage& message) {
-    if (enough && reader.chunks_read() > *enough) return true;
+    if (enough && reader.bytes_read() > *enough) return true;
     const BagConnection& connection = *message.connection;
     if (connection.type != "sensor_msgs/Image") return false;
     if (!wanted.empty() && !is_same_name(connection.topic, wanted)) return false;
-    const auto image = ros::parse_image(message.data);
+    const auto image = ros::parse_image(message.serialized());
     if (!image || (wanted.empty() && !may_be_depth(image->encoding))) return false;
     note_image(message, *image, candidates);
     if (!wanted.empty()) return true;
     const bool is_plain = std::ranges::any_of(
         candidates, [](const DepthCandidate& c) { return c.evidence >= kPlainly; });
-    if (is_plain && !enough) enough = reader.chunks_read() + kChunksToCompare;
+    if (is_plain && !enough) enough = reader.bytes_read() + kBytesToCompare;
     return false;
   });
   if (!scanned && candidates.empty()) return forward_error(std::move(scanned));
   return candidates;
 }
 
-Expected<DepthCandidate> choose_depth(const BagReader& reader,
+Expected<DepthCandidate> choose_depth(const RecordingReader& reader,
                                       const std::vector<DepthCandidate>& candidates,
                                       std::string_view wanted) {
   constexpr std::string_view kRemedy = "choose a topic with --depth-topic";
@@ -151,12 +152,12 @@ Expected<DepthCandidate> choose_depth(const BagReader& reader,
   }
   const auto best = std::ranges::max_element(candidates, {}, &DepthCandidate::evidence);
   if (best->evidence < 1) {
-    return fail(ErrorCode::kNotFound, reader.bytes().name(),
+    return fail(ErrorCode::kNotFound, reader.name(),
                 fmt::format("none of its images is plainly depth: {}", list_of(candidates)),
                 std::string(kRemedy) + " if one is");
   }
   if (std::ranges::count(candidates, best->evidence, &DepthCandidate::evidence) > 1) {
-    return fail(ErrorCode::kUsage, reader.bytes().name(),
+    return fail(ErrorCode::kUsage, reader.name(),
                 fmt::format("several of its topics may be the depth: {}", list_of(candidates)),
                 std::string(kRemedy) + ", or with 'stream' in a rig file");
   }

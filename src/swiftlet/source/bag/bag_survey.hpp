@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "swiftlet/bag/bag_reader.hpp"
+#include "swiftlet/bag/recording_reader.hpp"
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/source/bag/bag_streams.hpp"
 
@@ -29,13 +29,13 @@ struct DepthCandidate {
 
 /// The candidates of a bag, in the order of the file; only `wanted` if it is not empty. Reads on
 /// until one is plainly depth and some more, so that a better one beside it is seen; a fault of
-/// the file behind a candidate is left to whoever reads on. Errors: those of BagReader.
-[[nodiscard]] Expected<std::vector<DepthCandidate>> survey_depth(BagReader& reader,
+/// the file behind a candidate is left to whoever reads on. Errors: those of RecordingReader.
+[[nodiscard]] Expected<std::vector<DepthCandidate>> survey_depth(RecordingReader& reader,
                                                                  std::string_view wanted);
 
 /// The one that is depth by the evidence of its encoding, its name and its pixels.
 /// Errors: kNotFound naming what there is and what to do; kUsage if two have the same claim.
-[[nodiscard]] Expected<DepthCandidate> choose_depth(const BagReader& reader,
+[[nodiscard]] Expected<DepthCandidate> choose_depth(const RecordingReader& reader,
                                                     const std::vector<DepthCandidate>& candidates,
                                                     std::string_view wanted);
 

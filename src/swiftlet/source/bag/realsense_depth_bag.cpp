@@ -31,7 +31,7 @@ struct DepthSetup {
 
 class RealsenseDepth final : public DepthStream {
  public:
-  RealsenseDepth(BagReader reader, const DepthSetup& setup)
+  RealsenseDepth(RecordingReaderPtr reader, const DepthSetup& setup)
       : reader_(std::move(reader)),
         stream_(setup.stream),
         data_topic_(setup.stream + "/image/data"),
@@ -55,7 +55,7 @@ class RealsenseDepth final : public DepthStream {
   }
 
  private:
-  Expected<std::optional<BagMessage>> read() { return read_after(reader_, fault_, !!pending_); }
+  Expected<std::optional<BagMessage>> read() { return read_after(*reader_, fault_, !!pending_); }
 
   struct Pending {
     Stamp record_time;
@@ -64,15 +64,15 @@ class RealsenseDepth final : public DepthStream {
   };
 
   Status begin(const BagMessage& message) {
-    const auto image = ros::parse_image(message.data);
+    const auto image = ros::parse_image(message.serialized());
     if (!image)
-      return fail(ErrorCode::kCorruptInput, place_of(reader_, message), "it is no image message");
+      return fail(ErrorCode::kCorruptInput, reader_->place_of(message), "it is no image message");
     const float unit_m = is_usable_unit(image->depth_unit_m) ? *image->depth_unit_m : unit_m_;
     auto depth = depth_from_message(*image, unit_m);
     if (!depth)
-      return fail(ErrorCode::kCorruptInput, place_of(reader_, message), std::move(depth.error()));
+      return fail(ErrorCode::kCorruptInput, reader_->place_of(message), std::move(depth.error()));
     if (depth->raw.width() != intrinsics_.width() || depth->raw.height() != intrinsics_.height())
-      return fail(ErrorCode::kCorruptInput, place_of(reader_, message),
+      return fail(ErrorCode::kCorruptInput, reader_->place_of(message),
                   "the image has another size than its camera_info");
     pending_.emplace(Pending{message.record_time,
                              DepthFrame{image->header.stamp, std::move(*depth), intrinsics_},
@@ -83,10 +83,10 @@ class RealsenseDepth final : public DepthStream {
   void note(const BagMessage& message) {
     const std::string& topic = message.connection->topic;
     if (topic == metadata_topic_) {
-      const auto pair = ros::parse_key_value(message.data);
+      const auto pair = ros::parse_key_value(message.serialized());
       if (pair && pending_ && pending_->record_time == message.record_time) note_metadata(*pair);
     } else if (is_option_of(topic, stream_, kDepthUnits)) {
-      const auto unit_m = ros::parse_float32(message.data);
+      const auto unit_m = ros::parse_float32(message.serialized());
       if (is_usable_unit(unit_m)) unit_m_ = *unit_m;  // changed while recording
     }
   }
@@ -110,7 +110,7 @@ class RealsenseDepth final : public DepthStream {
     return std::move(done.frame);
   }
 
-  BagReader reader_;
+  RecordingReaderPtr reader_;
   std::string stream_, data_topic_, metadata_topic_;
   PinholeIntrinsics intrinsics_;
   float unit_m_;
@@ -119,25 +119,25 @@ class RealsenseDepth final : public DepthStream {
 };
 
 /// Notes what a message before the first image tells of the camera.
-Status note_setup(const BagReader& reader, const BagMessage& message, DepthSetup& setup,
+Status note_setup(const RecordingReader& reader, const BagMessage& message, DepthSetup& setup,
                   std::string& info_stream) {
   const std::string& topic = message.connection->topic;
   constexpr std::string_view kInfo = "/info/camera_info";
   if (topic.ends_with(kInfo) && topic.find("/Depth_") != std::string::npos && !setup.intrinsics) {
-    const auto info = ros::parse_camera_info(message.data);
+    const auto info = ros::parse_camera_info(message.serialized());
     if (!info)
-      return fail(ErrorCode::kCorruptInput, place_of(reader, message), "it is no CameraInfo");
-    auto intrinsics = intrinsics_from_message(*info, place_of(reader, message));
+      return fail(ErrorCode::kCorruptInput, reader.place_of(message), "it is no CameraInfo");
+    auto intrinsics = intrinsics_from_message(*info, reader.place_of(message));
     if (!intrinsics) return forward_error(std::move(intrinsics));
     setup.intrinsics = *intrinsics;
     info_stream = topic.substr(0, topic.size() - kInfo.size());
   }
   if (is_option_of(topic, info_stream, kDepthUnits)) {
-    const auto unit_m = ros::parse_float32(message.data);
+    const auto unit_m = ros::parse_float32(message.serialized());
     if (is_usable_unit(unit_m)) setup.unit_m = *unit_m;
   }
   if (is_option_of(topic, info_stream, kStereoBaseline)) {
-    const auto baseline_mm = ros::parse_float32(message.data);
+    const auto baseline_mm = ros::parse_float32(message.serialized());
     if (is_usable_unit(baseline_mm)) setup.baseline_m = double{*baseline_mm} * 1e-3;
   }
   return Done{};
@@ -146,16 +146,16 @@ Status note_setup(const BagReader& reader, const BagMessage& message, DepthSetup
 }  // namespace
 
 Expected<std::optional<BagDepth>> open_realsense_depth(const std::filesystem::path& path) {
-  auto reader = open_bag(path);
+  auto reader = open_recording(path);
   if (!reader) return forward_error(std::move(reader));
   DepthSetup setup;
   std::string info_stream;
   Status noted = Done{};
   bool is_other_kind = false;
-  auto found = scan_bag(*reader, [&](const BagMessage& message) {
+  auto found = scan_bag(**reader, [&](const BagMessage& message) {
     is_other_kind = !is_realsense(message);
     if (is_other_kind) return true;
-    noted = note_setup(*reader, message, setup, info_stream);
+    noted = note_setup(**reader, message, setup, info_stream);
     if (auto stream = depth_stream_of(message.connection->topic)) setup.stream = *stream;
     return !noted || !setup.stream.empty();
   });
@@ -163,11 +163,11 @@ Expected<std::optional<BagDepth>> open_realsense_depth(const std::filesystem::pa
   if (is_other_kind) return std::nullopt;
   if (!noted) return forward_error(std::move(noted));
   if (setup.stream.empty())
-    return no_such_topic(*reader, "it holds no depth images", "name the depth recording first");
+    return no_such_topic(**reader, "it holds no depth images", "name the depth recording first");
   if (!setup.intrinsics || info_stream != setup.stream)
-    return no_such_topic(*reader, "it has no camera_info before its first depth image",
+    return no_such_topic(**reader, "it has no camera_info before its first depth image",
                          "record it again");
-  auto again = open_bag(path);
+  auto again = open_recording(path);
   if (!again) return forward_error(std::move(again));
   const auto intrinsics = *setup.intrinsics;
   return BagDepth{std::make_unique<RealsenseDepth>(std::move(*again), setup),

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "swiftlet/bag/bag_reader.hpp"
+#include "swiftlet/bag/recording_reader.hpp"
 
 // Recordings of the RealSense SDK. A frame is several messages: its data, then its metadata as
 // pairs of words, tied to it by nothing but the same record time. So a frame is complete when the
@@ -16,7 +16,7 @@ namespace swiftlet {
 
 /// The next message. A fault of the file waits in `fault` while a frame from before it is pending:
 /// the stream seems to end, gives that frame, and then tells the fault.
-[[nodiscard]] inline Expected<std::optional<BagMessage>> read_after(BagReader& reader,
+[[nodiscard]] inline Expected<std::optional<BagMessage>> read_after(RecordingReader& reader,
                                                                     std::optional<Error>& fault,
                                                                     bool is_pending) {
   if (fault && !is_pending) return tl::make_unexpected(*std::exchange(fault, std::nullopt));

@@ -16,7 +16,7 @@ namespace {
 
 class RealsensePoses final : public PoseStream {
  public:
-  RealsensePoses(BagReader reader, const std::string& stream)
+  RealsensePoses(RecordingReaderPtr reader, const std::string& stream)
       : reader_(std::move(reader)),
         data_topic_(stream + "/pose/transform/data"),
         metadata_topic_(stream + "/pose/metadata") {}
@@ -29,21 +29,21 @@ class RealsensePoses final : public PoseStream {
       const std::string& topic = (*message)->connection->topic;
       if (topic == data_topic_) {
         auto done = finish();
-        const auto pose = ros::parse_transform((*message)->data);
+        const auto pose = ros::parse_transform((*message)->serialized());
         if (!pose)
-          return fail(ErrorCode::kCorruptInput, place_of(reader_, **message),
+          return fail(ErrorCode::kCorruptInput, reader_->place_of(**message),
                       "it is no pose message");
         pending_.emplace(Pending{(*message)->record_time, *pose, {}, {}, {}});
         if (done) return done;
       } else if (topic == metadata_topic_ && pending_ &&
                  pending_->record_time == (*message)->record_time) {
-        if (const auto pair = ros::parse_key_value((*message)->data)) note_metadata(*pair);
+        if (const auto pair = ros::parse_key_value((*message)->serialized())) note_metadata(*pair);
       }
     }
   }
 
  private:
-  Expected<std::optional<BagMessage>> read() { return read_after(reader_, fault_, !!pending_); }
+  Expected<std::optional<BagMessage>> read() { return read_after(*reader_, fault_, !!pending_); }
 
   struct Pending {
     Stamp record_time;
@@ -72,7 +72,7 @@ class RealsensePoses final : public PoseStream {
     return sample;
   }
 
-  BagReader reader_;
+  RecordingReaderPtr reader_;
   std::string data_topic_, metadata_topic_;
   std::optional<Pending> pending_;
   std::optional<Error> fault_;
@@ -81,11 +81,11 @@ class RealsensePoses final : public PoseStream {
 }  // namespace
 
 Expected<std::optional<BagPoses>> open_realsense_poses(const std::filesystem::path& path) {
-  auto reader = open_bag(path);
+  auto reader = open_recording(path);
   if (!reader) return forward_error(std::move(reader));
   std::optional<std::string> stream;
   bool is_other_kind = false;
-  auto found = scan_bag(*reader, [&](const BagMessage& message) {
+  auto found = scan_bag(**reader, [&](const BagMessage& message) {
     is_other_kind = !is_realsense(message);
     stream = pose_stream_of(message.connection->topic);
     return is_other_kind || stream.has_value();
@@ -93,9 +93,9 @@ Expected<std::optional<BagPoses>> open_realsense_poses(const std::filesystem::pa
   if (!found) return forward_error(std::move(found));
   if (is_other_kind) return std::nullopt;
   if (!stream)
-    return no_such_topic(*reader, "it holds no poses",
+    return no_such_topic(**reader, "it holds no poses",
                          "the SDK writes one file a device: bag:depth.bag,pose.bag");
-  auto again = open_bag(path);
+  auto again = open_recording(path);
   if (!again) return forward_error(std::move(again));
   return BagPoses{std::make_unique<RealsensePoses>(std::move(*again), *stream),
                   *stream + "/pose/transform/data",

@@ -32,19 +32,20 @@ Expected<std::vector<CaptureSettings>> read_realsense_settings(const std::filesy
   if (!depth_stream_of(data_topic)) return all;
   const std::string stream = data_topic.substr(0, data_topic.size() - kDataTail.size());
   const std::string metadata_topic = stream + "/image/metadata";
-  auto reader = open_bag(path);
+  auto reader = open_recording(path);
   if (!reader) return forward_error(std::move(reader));
   std::optional<double> laser_mw;  // by the option
   Stamp last;
-  auto read = scan_bag(*reader, [&](const BagMessage& message) {
+  auto read = scan_bag(**reader, [&](const BagMessage& message) {
     const std::string& topic = message.connection->topic;
     if (topic == data_topic) {
       all.push_back({std::nullopt, laser_mw});
       last = message.record_time;
     } else if (topic == metadata_topic && !all.empty() && message.record_time == last) {
-      if (const auto pair = ros::parse_key_value(message.data)) note_pair(*pair, all.back());
+      if (const auto pair = ros::parse_key_value(message.serialized()))
+        note_pair(*pair, all.back());
     } else if (is_option_of(topic, stream, kLaserPower)) {
-      if (const auto power = ros::parse_float32(message.data)) laser_mw = double{*power};
+      if (const auto power = ros::parse_float32(message.serialized())) laser_mw = double{*power};
     }
     return false;
   });

@@ -14,7 +14,7 @@
 #include "swiftlet/source/bag/depth_message.hpp"
 #include "swiftlet/source/bag/realsense_messages.hpp"
 
-// The depth images of plain ROS 1 bags, as of realsense-ros or OpenLORIS-Scene.
+// The depth images of recordings of ROS, as of realsense-ros or OpenLORIS-Scene.
 
 namespace swiftlet {
 namespace {
@@ -47,7 +47,7 @@ class InfoHistory {
 
 class RosDepth final : public DepthStream {
  public:
-  RosDepth(BagReader reader, std::string topic, std::string info_topic,
+  RosDepth(RecordingReaderPtr reader, std::string topic, std::string info_topic,
            const ros::CameraInfo& first, float unit_m)
       : reader_(std::move(reader)),
         topic_(std::move(topic)),
@@ -59,7 +59,7 @@ class RosDepth final : public DepthStream {
   /// An image is pending until the next one, because its CameraInfo may follow it.
   Expected<std::optional<DepthFrame>> next() override {
     while (true) {
-      auto message = read_after(reader_, fault_, pending_.has_value());
+      auto message = read_after(*reader_, fault_, pending_.has_value());
       if (!message) return forward_error(std::move(message));
       if (!*message) return finish();
       if ((*message)->connection->topic == topic_) {
@@ -84,19 +84,19 @@ class RosDepth final : public DepthStream {
   };
 
   Status begin(const BagMessage& message) {
-    const auto image = ros::parse_image(message.data);
+    const auto image = ros::parse_image(message.serialized());
     if (!image)
-      return fail(ErrorCode::kCorruptInput, place_of(reader_, message), "it is no image message");
+      return fail(ErrorCode::kCorruptInput, reader_->place_of(message), "it is no image message");
     auto depth = depth_from_message(*image, unit_m_);
     if (!depth)
-      return fail(ErrorCode::kCorruptInput, place_of(reader_, message), std::move(depth.error()));
-    pending_.emplace(Pending{image->header.stamp, std::move(*depth), place_of(reader_, message)});
+      return fail(ErrorCode::kCorruptInput, reader_->place_of(message), std::move(depth.error()));
+    pending_.emplace(Pending{image->header.stamp, std::move(*depth), reader_->place_of(message)});
     return Done{};
   }
 
   /// One that cannot be meant, as a driver sends that is not calibrated, changes nothing.
   void note_info(const BagMessage& message) {
-    const auto info = ros::parse_camera_info(message.data);
+    const auto info = ros::parse_camera_info(message.serialized());
     if (info && info->K[0] > 0.0) infos_.note(*info);
   }
 
@@ -109,7 +109,7 @@ class RosDepth final : public DepthStream {
     return DepthFrame{done.stamp, std::move(done.depth), *intrinsics};
   }
 
-  BagReader reader_;
+  RecordingReaderPtr reader_;
   std::string topic_, info_topic_;
   InfoHistory infos_;
   float unit_m_;
@@ -123,14 +123,14 @@ struct FoundInfo {
   PinholeIntrinsics intrinsics;
 };
 
-Expected<FoundInfo> find_info(BagReader& reader, const std::string& topic,
+Expected<FoundInfo> find_info(RecordingReader& reader, const std::string& topic,
                               const DepthCandidate& images) {
   Expected<FoundInfo> found = tl::make_unexpected(Error{});
   auto is_found = scan_bag(reader, [&](const BagMessage& message) {
     if (message.connection->type != kInfoType || !is_same_name(message.connection->topic, topic))
       return false;
-    const auto info = ros::parse_camera_info(message.data);
-    const std::string place = place_of(reader, message);
+    const auto info = ros::parse_camera_info(message.serialized());
+    const std::string place = reader.place_of(message);
     if (!info) {
       found = fail(ErrorCode::kCorruptInput, place, "it is no CameraInfo");
       return true;
@@ -164,20 +164,20 @@ std::string told(const DepthCandidate& chosen, const std::vector<DepthCandidate>
 }  // namespace
 
 Expected<BagDepth> open_ros_depth(const std::filesystem::path& path, const BagTopics& topics) {
-  auto first = open_bag(path);
+  auto first = open_recording(path);
   if (!first) return forward_error(std::move(first));
-  auto candidates = survey_depth(*first, topics.depth);
+  auto candidates = survey_depth(**first, topics.depth);
   if (!candidates) return forward_error(std::move(candidates));
-  auto images = choose_depth(*first, *candidates, topics.depth);
+  auto images = choose_depth(**first, *candidates, topics.depth);
   if (!images) return forward_error(std::move(images));
 
-  auto second = open_bag(path);
+  auto second = open_recording(path);
   if (!second) return forward_error(std::move(second));
   const std::string beside = images->topic.substr(0, images->topic.rfind('/')) + "/camera_info";
-  auto info = find_info(*second, topics.info.empty() ? beside : topics.info, *images);
+  auto info = find_info(**second, topics.info.empty() ? beside : topics.info, *images);
   if (!info) return forward_error(std::move(info));
 
-  auto third = open_bag(path);
+  auto third = open_recording(path);
   if (!third) return forward_error(std::move(third));
   return BagDepth{std::make_unique<RosDepth>(std::move(*third), images->topic, info->topic,
                                              info->info, static_cast<float>(topics.depth_unit_m)),

@@ -14,7 +14,7 @@
 #include "swiftlet/source/bag/bag_scan.hpp"
 #include "swiftlet/source/rig/mounts.hpp"
 
-// The poses of plain ROS 1 bags.
+// The poses of recordings of ROS.
 
 namespace swiftlet {
 namespace {
@@ -28,7 +28,7 @@ bool is_meant(const ros::StampedPose& pose, std::string_view frame) {
 
 class RosPoses final : public PoseStream {
  public:
-  RosPoses(BagReader reader, std::string topic, std::string child, BodyAxes axes)
+  RosPoses(RecordingReaderPtr reader, std::string topic, std::string child, BodyAxes axes)
       : reader_(std::move(reader)),
         topic_(std::move(topic)),
         child_(std::move(child)),
@@ -36,13 +36,13 @@ class RosPoses final : public PoseStream {
 
   Expected<std::optional<PoseSample>> next() override {
     while (true) {
-      auto message = reader_.next();
+      auto message = reader_->next();
       if (!message) return forward_error(std::move(message));
       if (!*message) return std::nullopt;
       if ((*message)->connection->topic != topic_) continue;
-      const auto poses = ros::parse_poses((*message)->connection->type, (*message)->data);
+      const auto poses = ros::parse_poses((*message)->connection->type, (*message)->serialized());
       if (!poses)
-        return fail(ErrorCode::kCorruptInput, place_of(reader_, **message),
+        return fail(ErrorCode::kCorruptInput, reader_->place_of(**message),
                     "it is no " + (*message)->connection->type);
       const auto wanted = std::ranges::find_if(
           *poses, [&](const ros::StampedPose& pose) { return is_meant(pose, child_); });
@@ -52,7 +52,7 @@ class RosPoses final : public PoseStream {
   }
 
  private:
-  BagReader reader_;
+  RecordingReaderPtr reader_;
   std::string topic_;
   std::string child_;
   BodyAxes axes_;
@@ -81,7 +81,7 @@ bool note_poses(const BagConnection& connection, const std::vector<ros::StampedP
   return found.is_complete;
 }
 
-Expected<FoundPoses> find_poses(BagReader& reader, const BagTopics& topics) {
+Expected<FoundPoses> find_poses(RecordingReader& reader, const BagTopics& topics) {
   FoundPoses found;
   auto is_found = scan_bag(reader, [&](const BagMessage& message) {
     const BagConnection& connection = *message.connection;
@@ -91,7 +91,7 @@ Expected<FoundPoses> find_poses(BagReader& reader, const BagTopics& topics) {
     const bool is_asked =
         topics.pose.empty() ? !is_tf(connection.type) : is_same_name(connection.topic, topics.pose);
     if (!is_pose || !is_asked) return false;
-    const auto poses = ros::parse_poses(connection.type, message.data);
+    const auto poses = ros::parse_poses(connection.type, message.serialized());
     return poses && note_poses(connection, *poses, topics, found);
   });
   if (!is_found) return forward_error(std::move(is_found));
@@ -109,12 +109,12 @@ Expected<FoundPoses> find_poses(BagReader& reader, const BagTopics& topics) {
         ErrorCode::kUsage, found.topic, "a tf topic holds the poses of many frames",
         fmt::format("say which is the vehicle with --body-frame: {}", fmt::join(frames, ", ")));
   }
-  return fail(ErrorCode::kNotFound, fmt::format("{} ({})", reader.bytes().name(), found.topic),
+  return fail(ErrorCode::kNotFound, fmt::format("{} ({})", reader.name(), found.topic),
               fmt::format("there is no frame {}", topics.body_frame),
               names_instead(topics.body_frame, frames));
 }
 
-std::string told(const FoundPoses& found, const BagReader& reader) {
+std::string told(const FoundPoses& found, const RecordingReader& reader) {
   std::string others;
   for (const auto& [id, connection] : reader.connections()) {
     const bool is_other =
@@ -129,15 +129,15 @@ std::string told(const FoundPoses& found, const BagReader& reader) {
 }  // namespace
 
 Expected<BagPoses> open_ros_poses(const std::filesystem::path& path, const BagTopics& topics) {
-  auto first = open_bag(path);
+  auto first = open_recording(path);
   if (!first) return forward_error(std::move(first));
-  auto found = find_poses(*first, topics);
+  auto found = find_poses(**first, topics);
   if (!found) return forward_error(std::move(found));
-  auto again = open_bag(path);
+  auto again = open_recording(path);
   if (!again) return forward_error(std::move(again));
   return BagPoses{std::make_unique<RosPoses>(std::move(*again), found->topic, topics.body_frame,
                                              topics.pose_axes),
-                  found->topic, found->child, false, told(*found, *first)};
+                  found->topic, found->child, false, told(*found, **first)};
 }
 
 }  // namespace swiftlet

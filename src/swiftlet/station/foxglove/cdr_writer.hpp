@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "swiftlet/station/byte_writer.hpp"
+#include "swiftlet/base/byte_writer.hpp"
 
 namespace swiftlet::station {
 

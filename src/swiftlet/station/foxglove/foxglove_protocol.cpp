@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "swiftlet/station/byte_writer.hpp"
+#include "swiftlet/base/byte_writer.hpp"
 #include "swiftlet/station/client_protocol.hpp"
 #include "swiftlet/station/foxglove/foxglove_messages.hpp"
 #include "swiftlet/station/foxglove/foxglove_schemas.hpp"

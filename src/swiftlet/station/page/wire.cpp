@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "swiftlet/base/byte_writer.hpp"
 #include "swiftlet/base/contract.hpp"
 #include "swiftlet/base/narrow.hpp"
-#include "swiftlet/station/byte_writer.hpp"
 
 namespace swiftlet::station {
 namespace {

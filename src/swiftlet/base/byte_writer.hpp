@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace swiftlet::station {
+namespace swiftlet {
 
 /// Appends numbers to bytes, little endian and without padding, whatever the machine.
 class ByteWriter {
@@ -40,4 +40,4 @@ class ByteWriter {
   std::vector<std::uint8_t>& out_;
 };
 
-}  // namespace swiftlet::station
+}  // namespace swiftlet
