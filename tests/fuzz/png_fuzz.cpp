@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "swiftlet/source/folders/depth_png.hpp"
+#include "swiftlet/source/depth_png.hpp"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/source/folders/depth_png.hpp"
+#include "swiftlet/source/depth_png.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@
 #include "support/recorded.hpp"
 #include "support/recordings.hpp"
 #include "swiftlet/source/bag/bag_streams.hpp"
-#include "swiftlet/source/folders/depth_png.hpp"
+#include "swiftlet/source/depth_png.hpp"
 
 namespace swiftlet {
 namespace {

@@ -19,6 +19,7 @@
 #include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/base/nearest_name.hpp"
 #include "swiftlet/source/bag/bag_scan.hpp"
+#include "swiftlet/source/bag/depth_decoder.hpp"
 #include "swiftlet/source/rig/frame_tree.hpp"
 
 namespace swiftlet {
@@ -57,8 +58,8 @@ tl::unexpected<Error> no_such_topic(const RecordingReader& reader, std::string_v
   for (const auto& [id, connection] : reader.connections()) {
     const bool is_pose =
         std::ranges::find(ros::kPoseTypes, connection.type) != ros::kPoseTypes.end();
-    if (is_pose || connection.type == "sensor_msgs/Image" ||
-        connection.type == "sensor_msgs/CameraInfo" || connection.topic.ends_with("/data"))
+    if (is_pose || is_depth_type(connection.type) || connection.type == "sensor_msgs/CameraInfo" ||
+        connection.topic.ends_with("/data"))
       topics.insert(connection.topic);
   }
   const std::vector<std::string> known(topics.begin(), topics.end());

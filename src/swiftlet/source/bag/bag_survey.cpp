@@ -13,6 +13,7 @@
 
 #include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/source/bag/bag_scan.hpp"
+#include "swiftlet/source/bag/depth_decoder.hpp"
 #include "swiftlet/source/bag/depth_message.hpp"
 
 namespace swiftlet {
@@ -50,16 +51,30 @@ int evidence_of_name(std::string_view topic) {
   return evidence - (is_moved ? 1 : 0);
 }
 
-int evidence_of(const ros::Image& image, std::string_view topic) {
-  int evidence = evidence_of_name(topic) + (image.encoding == "mono16" ? 0 : 2);
-  const auto depth = depth_from_message(image, 0.001F);
-  if (!depth) return evidence;
-  if (const auto smooth = smooth_share(*depth))
-    evidence += *smooth > 0.6 ? 1 : *smooth < 0.3 ? -2 : 0;
-  return evidence;
+/// The same depth may come in several forms: the image itself comes before what it was packed into,
+/// and that before the points that were made of it.
+int evidence_of_type(std::string_view type, std::string_view topic) {
+  if (type == "sensor_msgs/Image") return 0;
+  if (type == "sensor_msgs/PointCloud2") return -3;
+  return topic.ends_with("/compressedDepth") ? -1 : -2;
 }
 
-void note_image(const BagMessage& message, const ros::Image& image,
+/// What the first message of a topic tells of it.
+void look_closely(const BagMessage& message, DepthCandidate& candidate) {
+  candidate.evidence = evidence_of_name(candidate.topic) +
+                       evidence_of_type(candidate.type, candidate.topic) +
+                       (candidate.encoding == "mono16" ? 0 : 2);
+  const auto decoded = decode_depth(message, 0.001F);
+  if (!decoded && candidate.type == "sensor_msgs/PointCloud2") candidate.evidence = 0;
+  if (!decoded) return;
+  candidate.width = decoded->depth.raw.width();
+  candidate.height = decoded->depth.raw.height();
+  candidate.camera = decoded->camera;
+  if (const auto smooth = smooth_share(decoded->depth))
+    candidate.evidence += *smooth > 0.6 ? 1 : *smooth < 0.3 ? -2 : 0;
+}
+
+void note_image(const BagMessage& message, const DepthHead& head,
                 std::vector<DepthCandidate>& candidates) {
   const std::string& topic = message.connection->topic;
   auto found = std::ranges::find(candidates, topic, &DepthCandidate::topic);
@@ -67,35 +82,17 @@ void note_image(const BagMessage& message, const ros::Image& image,
     if (candidates.size() == kMostCandidates) return;
     DepthCandidate fresh;
     fresh.topic = topic;
-    fresh.encoding = image.encoding;
-    fresh.frame_id = image.header.frame_id;
-    fresh.width = static_cast<int>(std::min(image.width, 65535U));
-    fresh.height = static_cast<int>(std::min(image.height, 65535U));
+    fresh.type = message.connection->type;
+    fresh.encoding = head.encoding;
+    fresh.frame_id = head.frame_id;
+    fresh.width = static_cast<int>(std::min(head.width, 65535U));
+    fresh.height = static_cast<int>(std::min(head.height, 65535U));
     fresh.first = message.record_time;
-    fresh.evidence = evidence_of(image, topic);
+    look_closely(message, fresh);
     found = candidates.insert(candidates.end(), std::move(fresh));
   }
   ++found->images;
   found->last = message.record_time;
-}
-
-/// Depth that is not read, PNG or RVL behind a header of image_transport: the error that names it
-/// and says what to do; nullopt if there is none.
-std::optional<Error> compressed_depth(const RecordingReader& reader, std::string_view what) {
-  for (const auto& [id, connection] : reader.connections()) {
-    constexpr std::string_view kEnd = "/compressedDepth";
-    const std::string& topic = connection.topic;
-    if (connection.type != "sensor_msgs/CompressedImage" || !topic.ends_with(kEnd)) continue;
-    const std::string plain = topic.substr(0, topic.size() - kEnd.size());
-    return Error{ErrorCode::kUnsupported, reader.name(),
-                 fmt::format("{}, but compressed depth on {}, which is not read", what, topic),
-                 fmt::format("play the bag through `rosrun image_transport republish "
-                             "compressedDepth in:={} raw out:=/depth/image_raw`, record that, and "
-                             "name it with --depth-topic /depth/image_raw --info-topic "
-                             "{}/camera_info",
-                             plain, plain.substr(0, plain.rfind('/')))};
-  }
-  return std::nullopt;
 }
 
 std::string list_of(const std::vector<DepthCandidate>& candidates) {
@@ -123,11 +120,11 @@ Expected<std::vector<DepthCandidate>> survey_depth(RecordingReader& reader,
   auto scanned = scan_bag(reader, [&](const BagMessage& message) {
     if (enough && reader.bytes_read() > *enough) return true;
     const BagConnection& connection = *message.connection;
-    if (connection.type != "sensor_msgs/Image") return false;
+    if (!is_depth_type(connection.type)) return false;
     if (!wanted.empty() && !is_same_name(connection.topic, wanted)) return false;
-    const auto image = ros::parse_image(message.serialized());
-    if (!image || (wanted.empty() && !may_be_depth(image->encoding))) return false;
-    note_image(message, *image, candidates);
+    const auto head = depth_head(message);
+    if (!head || (wanted.empty() && head->encoding.empty())) return false;
+    note_image(message, *head, candidates);
     if (!wanted.empty()) return true;
     const bool is_plain = std::ranges::any_of(
         candidates, [](const DepthCandidate& c) { return c.evidence >= kPlainly; });
@@ -144,10 +141,10 @@ Expected<DepthCandidate> choose_depth(const RecordingReader& reader,
   constexpr std::string_view kRemedy = "choose a topic with --depth-topic";
   if (!wanted.empty() && !candidates.empty()) return candidates.front();
   if (candidates.empty()) {
-    const std::string what = wanted.empty() ? "it holds no depth images (16UC1, mono16 or 32FC1)"
-                                            : fmt::format("it has no images on {}", wanted);
-    if (auto compressed = compressed_depth(reader, what))
-      return tl::make_unexpected(std::move(*compressed));
+    const std::string what = wanted.empty()
+                                 ? "it holds no depth images (16UC1, mono16 or 32FC1, also "
+                                   "compressed, or organised clouds)"
+                                 : fmt::format("it has no images on {}", wanted);
     return no_such_topic(reader, what, kRemedy, wanted);
   }
   const auto best = std::ranges::max_element(candidates, {}, &DepthCandidate::evidence);

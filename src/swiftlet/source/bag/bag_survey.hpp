@@ -3,25 +3,29 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "swiftlet/bag/recording_reader.hpp"
+#include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/source/bag/bag_streams.hpp"
 
 namespace swiftlet {
 
-/// A topic of images of a ROS bag that may hold depth.
+/// A topic of a recording of ROS that may hold depth.
 struct DepthCandidate {
   std::string topic;
-  std::string encoding;
+  std::string type;      ///< of its messages, see is_depth_type()
+  std::string encoding;  ///< of its pixels
   std::string frame_id;
   int width = 0, height = 0;
-  std::size_t images = 0;  ///< that were looked at
-  Stamp first, last;       ///< when they were recorded
-  int evidence = 0;        ///< that it is depth; below 1 it is none
+  std::size_t images = 0;                   ///< that were looked at
+  Stamp first, last;                        ///< when they were recorded
+  int evidence = 0;                         ///< that it is depth; below 1 it is none
+  std::optional<ros::CameraInfo> camera{};  ///< as far as the messages themselves tell
 
   /// "/camera/depth/image_raw (16UC1, 640 x 480, 30.0 Hz)"
   [[nodiscard]] std::string text() const;

@@ -32,12 +32,6 @@ Value value_at(const std::byte* row, std::uint32_t column, bool is_big_endian) {
   return value;
 }
 
-std::uint16_t steps_of(float depth_m, float unit_m) {
-  const float steps = std::round(depth_m / unit_m);
-  constexpr float kMax = std::numeric_limits<std::uint16_t>::max();
-  return steps > 0.0F && steps <= kMax ? static_cast<std::uint16_t>(steps) : std::uint16_t{0};
-}
-
 /// K of an image that has one pixel for so many of the sensor.
 void bin(std::array<double, 9>& K, double bin_x, double bin_y) {
   K[0] /= bin_x;
@@ -55,6 +49,12 @@ double off_centre(const std::array<double, 9>& K, int width, int height) {
 
 bool may_be_depth(std::string_view encoding) {
   return encoding == "16UC1" || encoding == "mono16" || is_float(encoding);
+}
+
+std::uint16_t steps_of(float depth_m, float unit_m) {
+  const float steps = std::round(depth_m / unit_m);
+  constexpr float kMax = std::numeric_limits<std::uint16_t>::max();
+  return steps > 0.0F && steps <= kMax ? static_cast<std::uint16_t>(steps) : std::uint16_t{0};
 }
 
 tl::expected<DepthImage, std::string> depth_from_message(const ros::Image& image, float unit_m) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,9 @@ namespace swiftlet {
 /// words.
 [[nodiscard]] tl::expected<DepthImage, std::string> depth_from_message(const ros::Image& image,
                                                                        float unit_m);
+
+/// Metres as steps of `unit_m`, as above.
+[[nodiscard]] std::uint16_t steps_of(float depth_m, float unit_m);
 
 /// Share of neighbours in a row, of those with a reading both, that differ by less than 5 %: high
 /// for depth, low for what a lamp and noise draw. nullopt with too few to tell.

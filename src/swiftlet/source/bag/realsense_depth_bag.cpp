@@ -7,6 +7,7 @@
 
 #include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/source/bag/bag_scan.hpp"
+#include "swiftlet/source/bag/depth_decoder.hpp"
 #include "swiftlet/source/bag/depth_message.hpp"
 #include "swiftlet/source/bag/realsense_messages.hpp"
 #include "swiftlet/source/bag/realsense_topics.hpp"
@@ -64,18 +65,15 @@ class RealsenseDepth final : public DepthStream {
   };
 
   Status begin(const BagMessage& message) {
-    const auto image = ros::parse_image(message.serialized());
-    if (!image)
-      return fail(ErrorCode::kCorruptInput, reader_->place_of(message), "it is no image message");
-    const float unit_m = is_usable_unit(image->depth_unit_m) ? *image->depth_unit_m : unit_m_;
-    auto depth = depth_from_message(*image, unit_m);
-    if (!depth)
-      return fail(ErrorCode::kCorruptInput, reader_->place_of(message), std::move(depth.error()));
-    if (depth->raw.width() != intrinsics_.width() || depth->raw.height() != intrinsics_.height())
+    auto decoded = decode_depth(message, unit_m_);
+    if (!decoded)
+      return fail(ErrorCode::kCorruptInput, reader_->place_of(message), std::move(decoded).error());
+    DepthImage& depth = decoded->depth;
+    if (depth.raw.width() != intrinsics_.width() || depth.raw.height() != intrinsics_.height())
       return fail(ErrorCode::kCorruptInput, reader_->place_of(message),
                   "the image has another size than its camera_info");
     pending_.emplace(Pending{message.record_time,
-                             DepthFrame{image->header.stamp, std::move(*depth), intrinsics_},
+                             DepthFrame{decoded->stamp, std::move(depth), intrinsics_},
                              std::nullopt, std::nullopt});
     return Done{};
   }

@@ -11,6 +11,7 @@
 #include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/source/bag/bag_scan.hpp"
 #include "swiftlet/source/bag/bag_survey.hpp"
+#include "swiftlet/source/bag/depth_decoder.hpp"
 #include "swiftlet/source/bag/depth_message.hpp"
 #include "swiftlet/source/bag/realsense_messages.hpp"
 
@@ -84,13 +85,11 @@ class RosDepth final : public DepthStream {
   };
 
   Status begin(const BagMessage& message) {
-    const auto image = ros::parse_image(message.serialized());
-    if (!image)
-      return fail(ErrorCode::kCorruptInput, reader_->place_of(message), "it is no image message");
-    auto depth = depth_from_message(*image, unit_m_);
-    if (!depth)
-      return fail(ErrorCode::kCorruptInput, reader_->place_of(message), std::move(depth.error()));
-    pending_.emplace(Pending{image->header.stamp, std::move(*depth), reader_->place_of(message)});
+    auto decoded = decode_depth(message, unit_m_);
+    if (!decoded)
+      return fail(ErrorCode::kCorruptInput, reader_->place_of(message), std::move(decoded).error());
+    pending_.emplace(
+        Pending{decoded->stamp, std::move(decoded->depth), reader_->place_of(message)});
     return Done{};
   }
 
@@ -123,6 +122,19 @@ struct FoundInfo {
   PinholeIntrinsics intrinsics;
 };
 
+/// A cloud tells its camera by its points.
+Expected<FoundInfo> info_of_images(const RecordingReader& reader, const std::string& topic,
+                                   const DepthCandidate& images) {
+  if (!images.camera) {
+    return no_such_topic(reader, "it has no CameraInfo on " + topic,
+                         "choose a topic with --info-topic", topic);
+  }
+  auto intrinsics =
+      intrinsics_of_images(*images.camera, images.width, images.height, reader.name());
+  if (!intrinsics) return forward_error(std::move(intrinsics));
+  return FoundInfo{"the points", *images.camera, *intrinsics};
+}
+
 Expected<FoundInfo> find_info(RecordingReader& reader, const std::string& topic,
                               const DepthCandidate& images) {
   Expected<FoundInfo> found = tl::make_unexpected(Error{});
@@ -147,8 +159,7 @@ Expected<FoundInfo> find_info(RecordingReader& reader, const std::string& topic,
   });
   if (!is_found) return forward_error(std::move(is_found));
   if (*is_found) return found;
-  return no_such_topic(reader, "it has no CameraInfo on " + topic,
-                       "choose a topic with --info-topic", topic);
+  return info_of_images(reader, topic, images);
 }
 
 std::string told(const DepthCandidate& chosen, const std::vector<DepthCandidate>& candidates,
@@ -173,7 +184,7 @@ Expected<BagDepth> open_ros_depth(const std::filesystem::path& path, const BagTo
 
   auto second = open_recording(path);
   if (!second) return forward_error(std::move(second));
-  const std::string beside = images->topic.substr(0, images->topic.rfind('/')) + "/camera_info";
+  const std::string beside = camera_info_beside(images->topic);
   auto info = find_info(**second, topics.info.empty() ? beside : topics.info, *images);
   if (!info) return forward_error(std::move(info));
 

@@ -11,7 +11,7 @@
 
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/frame/frame.hpp"
-#include "swiftlet/source/folders/depth_png.hpp"
+#include "swiftlet/source/depth_png.hpp"
 #include "swiftlet/source/intrinsics_note.hpp"
 
 namespace swiftlet {

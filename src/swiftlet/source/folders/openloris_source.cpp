@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "swiftlet/source/address_options.hpp"
-#include "swiftlet/source/folders/depth_png.hpp"
+#include "swiftlet/source/depth_png.hpp"
 #include "swiftlet/source/folders/folder_camera.hpp"
 #include "swiftlet/source/folders/folder_options.hpp"
 #include "swiftlet/source/folders/openloris_calibration.hpp"
