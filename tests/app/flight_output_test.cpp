@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "app/support/program_fixture.hpp"
 #include "app/support/run_program.hpp"
@@ -19,6 +20,7 @@
 namespace swiftlet::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -73,6 +75,34 @@ TEST_F(FlightOutput, puts_the_time_of_the_start_into_the_name_of_the_map) {
   ASSERT_EQ(map_to("a-%t.swl").exit_code, 0);
   EXPECT_THAT(left_behind("a-"),
               ::testing::ElementsAre(::testing::MatchesRegex("a-....-..-..T..-..-..[.]swl")));
+}
+
+#if SWIFTLET_HAS_EMBREE
+TEST_F(FlightOutput, writes_the_flight_as_mcap_which_gives_the_same_map) {
+  const Ended first = swiftlet(
+      {"map", "sim:wall", "--frames", "3", "--json", "-o", "a.swl", "--mcap", "flight.mcap"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(swiftlet({"info", "flight.mcap"}).out,
+              AllOf(HasSubstr("MCAP, profile ros2"), HasSubstr("/map/occupied"),
+                    HasSubstr("would map: depth from /camera/depth/image_rect_raw")));
+  const Ended second = swiftlet({"map", "bag:flight.mcap", "--json", "-o", "b.swl"});
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  const auto a = nlohmann::json::parse(first.out), b = nlohmann::json::parse(second.out);
+  EXPECT_EQ(b.at("frames"), a.at("frames"));
+  EXPECT_EQ(b.at("voxels"), a.at("voxels"));
+}
+#endif
+
+TEST_F(FlightOutput, the_flight_as_mcap_replaces_no_file_unasked) {
+  ASSERT_EQ(map_to("a.swl").exit_code, 0);
+  write_file(folder_ / "old.mcap", "an older flight");
+  expect_refusal(map_to("b.swl", {"--mcap", "old.mcap"}), 2, "old.mcap: the file exists");
+  expect_refusal(map_to("b.swl", {"--mcap", "./b.swl"}), 2, "the file of the map");
+  expect_refusal(map_to("b.swl", {"--overwrite", "--mcap", "a.swl"}), 2, "a Swiftlet map");
+  EXPECT_EQ(content_of(folder_ / "old.mcap"), "an older flight");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "b.swl"));
+  EXPECT_EQ(map_to("b.swl", {"--overwrite", "--mcap", "old.mcap"}).exit_code, 0);
+  EXPECT_THAT(content_of(folder_ / "old.mcap"), HasSubstr("MCAP"));
 }
 
 TEST_F(FlightOutput, flies_on_when_a_real_disk_is_full_and_ends_with_a_clear_sentence) {

@@ -13,6 +13,8 @@
 #endif
 
 #include "store/store_support.hpp"
+#include "swiftlet/bag/open_recording.hpp"
+#include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/store/export/octomap_import.hpp"
 
 namespace swiftlet {
@@ -108,6 +110,28 @@ TEST(Exporters, pcl_reads_our_ply_and_pcd_with_exactly_the_occupied_voxels) {
   run("pcl_ply2pcd -format 0 " + map.write("ply").string() + " " +
       (map.folder / "ply.pcd").string());
   EXPECT_EQ(voxels_of_ascii_pcd(map.folder / "ply.pcd"), occupied_of(map.voxels));
+}
+
+TEST(Exporters, mcap_holds_exactly_the_occupied_voxels_as_a_cloud) {
+  const ExportedMap map;
+  auto reader = open_recording(map.write("mcap"));
+  ASSERT_TRUE(reader) << reader.error().text();
+  const auto message = (*reader)->next();
+  ASSERT_TRUE(message && *message);
+  EXPECT_EQ((*message)->connection->topic, "/map/occupied");
+  const auto cloud = ros::parse_point_cloud((*message)->serialized());
+  ASSERT_TRUE(cloud);
+  ASSERT_EQ(cloud->data.size(), std::size_t{cloud->width} * cloud->point_step);
+  std::vector<VoxelIndex> voxels;
+  for (std::size_t at = 0; at < cloud->data.size(); at += cloud->point_step) {
+    float p[3];
+    std::memcpy(p, cloud->data.data() + at, sizeof(p));
+    voxels.push_back(voxel_containing({p[0], p[1], p[2]}, 0.05));
+  }
+  std::ranges::sort(voxels);
+  EXPECT_EQ(voxels, occupied_of(map.voxels));
+  EXPECT_FALSE((*reader)->next().value()) << "one cloud, no more";
+  EXPECT_TRUE((*reader)->info().is_closed);
 }
 
 TEST(Exporters, leave_nothing_behind_when_they_fail) {

@@ -54,6 +54,7 @@ Action declare_export(CLI::App& parser) {
   parser.footer(
       "Examples:\n"
       "  swiftlet export flat.swl --to ply -o flat.ply    points for CloudCompare or MeshLab\n"
+      "  swiftlet export flat.swl --to mcap -o flat.mcap  a cloud for Foxglove and Rerun\n"
       "  swiftlet export flat.swl --to bt -o flat.bt      an OctoMap for ROS");
   return [o] { return write_export(*o); };
 }

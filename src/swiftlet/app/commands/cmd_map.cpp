@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <span>
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/commands/config_flags.hpp"
@@ -19,6 +22,7 @@
 #include "swiftlet/app/report/summary.hpp"
 #include "swiftlet/app/view/autopilot_watch.hpp"
 #include "swiftlet/app/view/flight_watch.hpp"
+#include "swiftlet/file/output_file.hpp"
 #include "swiftlet/session/flight.hpp"
 #include "swiftlet/session/flight_file.hpp"
 #include "swiftlet/session/flight_recovery.hpp"
@@ -26,6 +30,7 @@
 #include "swiftlet/session/observers.hpp"
 #include "swiftlet/source/rig/real_time_source.hpp"
 #include "swiftlet/source/sources.hpp"
+#include "swiftlet/station/flight/flight_recorder.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -42,6 +47,7 @@ struct MapOptions {
   RigFlags rig;
   bool in_real_time = false;
   bool as_json = false;
+  std::string mcap;  ///< file for the flight; empty: none
   bool is_viewed = false;
   bool stays = false;  ///< the view, after the flight
   StationFlags station;
@@ -51,9 +57,23 @@ struct MapOptions {
 /// Who is told of the flight while it goes on; null where nobody is.
 struct Onlookers {
   std::unique_ptr<FlightWatch> page;
+  std::unique_ptr<station::FlightRecorder> recorder;
   std::unique_ptr<AutopilotWatch> autopilot;
   Observers all{};
 };
+
+Status check_recording_name(const MapOptions& options,
+                            std::span<const std::filesystem::path> inputs) {
+  if (options.mcap.empty()) return Done{};
+  const std::filesystem::path path(options.mcap);
+  if (path.lexically_normal() == std::filesystem::path(options.out).lexically_normal())
+    return fail(ErrorCode::kUsage, options.mcap, "this is the file of the map, too",
+                "choose another name with --mcap");
+  if (is_there(path) && !options.overwrite)
+    return fail(ErrorCode::kUsage, options.mcap, "the file exists",
+                "add --overwrite or choose another name with --mcap");
+  return check_output(path, inputs);
+}
 
 /// Told before the flight and not after it.
 Status check_name_is_free(const MapOptions& options) {
@@ -61,7 +81,9 @@ Status check_name_is_free(const MapOptions& options) {
   if (!recovered) return forward_error(std::move(recovered));
   for (const std::string& note : *recovered)
     std::fputs(("swiftlet: " + note + "\n").c_str(), stderr);
-  auto free = check_flight_file(options.out, options.overwrite, input_files(options.source));
+  const auto inputs = input_files(options.source);
+  if (auto allowed = check_recording_name(options, inputs); !allowed) return allowed;
+  auto free = check_flight_file(options.out, options.overwrite, inputs);
   return free ? check_room_for_flight(options.out) : free;
 }
 
@@ -102,7 +124,9 @@ Status fly_and_tell(FrameSource& source, MappingSession& session, const MapOptio
   Progress progress(options.frames > 0 ? options.frames : source.info().frame_count);
   FlightOptions flight = flight_options(options, progress, interrupt);
   flight.look = [&] {
-    if (onlookers.page) onlookers.page->note(source.tally(), session.summary().blocks_lost);
+    const std::uint64_t blocks_lost = session.summary().blocks_lost;
+    if (onlookers.page) onlookers.page->note(source.tally(), blocks_lost);
+    if (onlookers.recorder) onlookers.recorder->note(source.tally(), blocks_lost);
     if (!onlookers.autopilot) return;
     for (const std::string& note : onlookers.autopilot->take_notes())
       progress.tell("autopilot: " + note);
@@ -153,8 +177,14 @@ Expected<std::unique_ptr<Onlookers>> start_onlookers(const MapOptions& options, 
                 "its poses are the autopilot's, and there is none",
                 "add --mavlink LINK (docs/autopilot.md)");
   }
+  if (!options.mcap.empty()) {
+    auto recorder = station::FlightRecorder::start(options.mcap, options.source, meta);
+    if (!recorder) return forward_error(std::move(recorder));
+    onlookers->recorder = std::move(*recorder);
+  }
   onlookers->all.add(onlookers->page.get());
   onlookers->all.add(onlookers->autopilot.get());
+  onlookers->all.add(onlookers->recorder.get());  // last: it may hold up the others
   return onlookers;
 }
 
@@ -181,8 +211,11 @@ Faults map(const MapOptions& options) {
   if ((*onlookers)->autopilot) (*onlookers)->autopilot->finish();
   source->reset();  // nobody listens to the rig any more, however long the page stays
   if ((*onlookers)->page) (*onlookers)->page->finish();
+  if ((*onlookers)->recorder) (*onlookers)->recorder->finish();
   const bool is_over = flight.has_value() && !(*session)->summary().was_interrupted;
   Faults faults = land(**session, config->mapper, std::move(flight), options.as_json);
+  if ((*onlookers)->recorder)
+    std::ranges::move((*onlookers)->recorder->close(), std::back_inserter(faults));
   if ((*onlookers)->page && options.stays && is_over && faults.empty()) {
     std::fflush(stdout);
     wait_for(interrupt);
@@ -218,6 +251,10 @@ Action declare_map(CLI::App& parser) {
       ->type_name("N");
   parser.add_flag("--realtime", o->in_real_time,
                   "play at recorded speed and lose frames when late, as a live rig does");
+  parser
+      .add_option("--mcap", o->mcap,
+                  "write the flight, too, for Foxglove, Lichtblick and Rerun, and for bag:")
+      ->type_name("FILE");
   parser.add_flag("--view", o->is_viewed, "show the map in the browser while it grows")
       ->group("Ground station");
   parser.add_flag("--stay", o->stays, "go on showing it after the flight, until Ctrl-C")
@@ -248,6 +285,7 @@ Action declare_map(CLI::App& parser) {
       "FILE.<time>.cut.swl. Poses that lose their place begin a new map, FILE.world2.swl.");
   return [o] {
     o->out = with_start_time(std::move(o->out), std::time(nullptr));
+    o->mcap = with_start_time(std::move(o->mcap), std::time(nullptr));
     return map(*o);
   };
 }

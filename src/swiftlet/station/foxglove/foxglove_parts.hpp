@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "swiftlet/station/foxglove/cdr_writer.hpp"
+#include "swiftlet/bag/messages/cdr_writer.hpp"
 #include "swiftlet/station/map_model.hpp"
 
 namespace swiftlet::station {

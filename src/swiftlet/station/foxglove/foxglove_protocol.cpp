@@ -8,10 +8,10 @@
 #include <random>
 #include <vector>
 
+#include "swiftlet/bag/messages/message_definitions.hpp"
 #include "swiftlet/base/byte_writer.hpp"
 #include "swiftlet/station/client_protocol.hpp"
 #include "swiftlet/station/foxglove/foxglove_messages.hpp"
-#include "swiftlet/station/foxglove/foxglove_schemas.hpp"
 
 namespace swiftlet::station {
 namespace {
@@ -44,7 +44,7 @@ json advertisement() {
          {"topic", channel.topic},
          {"encoding", is_json ? "json" : "cdr"},
          {"schemaName", name},
-         {"schema", is_json ? std::string(kStatisticsSchema) : foxglove_schema(channel.schema)},
+         {"schema", is_json ? std::string(kStatisticsSchema) : message_definition(channel.schema)},
          {"schemaEncoding", is_json ? "jsonschema" : "ros2msg"}});
   }
   return {{"op", "advertise"}, {"channels", channels}};

@@ -11,6 +11,8 @@
   X(ply, ALWAYS,                                                                           \
     "occupied voxels as points with log-odds, coloured by height (CloudCompare, MeshLab)") \
   X(pcd, ALWAYS, "occupied voxels as points, intensity = log-odds (PCL)")                  \
+  X(mcap, ALWAYS,                                                                          \
+    "occupied voxels as a PointCloud2 of ROS 2, in MCAP (Foxglove, Lichtblick, Rerun)")    \
   X(bt, OCTOMAP, "OctoMap, free and occupied voxels")                                      \
   X(ot, OCTOMAP, "OctoMap with the log-odds of each free and occupied voxel")
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/station/foxglove/foxglove_schemas.hpp"
+#include "swiftlet/bag/messages/message_definitions.hpp"
 
 #include <algorithm>
 #include <vector>
 
 #include "swiftlet/base/contract.hpp"
 
-namespace swiftlet::station {
+namespace swiftlet {
 namespace {
 
 struct Definition {
@@ -16,8 +16,74 @@ struct Definition {
   std::string_view text;
 };
 
-// foxglove_msgs for ROS 2, as in foxglove-sdk (MIT), and the geometry_msgs in them.
+// common_interfaces of ROS 2 (Apache-2.0) without their comments, and foxglove_msgs for ROS 2, as
+// in foxglove-sdk (MIT).
 constexpr Definition kDefinitions[]{
+    {"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
+    {"geometry_msgs/Transform",
+     "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
+    {"geometry_msgs/TransformStamped",
+     "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"},
+    {"geometry_msgs/PoseStamped", "std_msgs/Header header\ngeometry_msgs/Pose pose\n"},
+    {"geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
+    {"geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
+    {"geometry_msgs/TwistWithCovariance", "geometry_msgs/Twist twist\nfloat64[36] covariance\n"},
+    {"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
+    {"nav_msgs/Path", "std_msgs/Header header\ngeometry_msgs/PoseStamped[] poses\n"},
+    {"nav_msgs/Odometry", R"(std_msgs/Header header
+string child_frame_id
+geometry_msgs/PoseWithCovariance pose
+geometry_msgs/TwistWithCovariance twist
+)"},
+    {"sensor_msgs/Image", R"(std_msgs/Header header
+uint32 height
+uint32 width
+string encoding
+uint8 is_bigendian
+uint32 step
+uint8[] data
+)"},
+    {"sensor_msgs/RegionOfInterest", R"(uint32 x_offset
+uint32 y_offset
+uint32 height
+uint32 width
+bool do_rectify
+)"},
+    {"sensor_msgs/CameraInfo", R"(std_msgs/Header header
+uint32 height
+uint32 width
+string distortion_model
+float64[] d
+float64[9] k
+float64[9] r
+float64[12] p
+uint32 binning_x
+uint32 binning_y
+sensor_msgs/RegionOfInterest roi
+)"},
+    {"sensor_msgs/PointField", R"(uint8 INT8=1
+uint8 UINT8=2
+uint8 INT16=3
+uint8 UINT16=4
+uint8 INT32=5
+uint8 UINT32=6
+uint8 FLOAT32=7
+uint8 FLOAT64=8
+string name
+uint32 offset
+uint8 datatype
+uint32 count
+)"},
+    {"sensor_msgs/PointCloud2", R"(std_msgs/Header header
+uint32 height
+uint32 width
+sensor_msgs/PointField[] fields
+bool is_bigendian
+uint32 point_step
+uint32 row_step
+uint8[] data
+bool is_dense
+)"},
     {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
     {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
     {"geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"},
@@ -183,7 +249,7 @@ void collect(const Definition& definition, std::vector<const Definition*>& found
 
 }  // namespace
 
-std::string foxglove_schema(std::string_view type) {
+std::string message_definition(std::string_view type) {
   const Definition* root = find_definition(type);
   SWIFTLET_REQUIRE(root != nullptr, "the type is in the table");
   std::vector<const Definition*> inner;
@@ -196,4 +262,4 @@ std::string foxglove_schema(std::string_view type) {
   return schema;
 }
 
-}  // namespace swiftlet::station
+}  // namespace swiftlet

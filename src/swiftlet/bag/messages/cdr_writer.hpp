@@ -10,7 +10,7 @@
 
 #include "swiftlet/base/byte_writer.hpp"
 
-namespace swiftlet::station {
+namespace swiftlet {
 
 /// Writes a ROS 2 message as its middleware does: CDR (XCDR1), little endian, each number aligned
 /// to its size from behind the header of four bytes.
@@ -52,4 +52,4 @@ class CdrWriter {
   std::size_t start_;
 };
 
-}  // namespace swiftlet::station
+}  // namespace swiftlet
