@@ -22,7 +22,7 @@ find_package(OpenSSL REQUIRED COMPONENTS Crypto)  # HMAC of poses that come over
 # Optional parts (see swiftlet_backend()).
 swiftlet_backend(NAME embree PACKAGE embree)    # ray casts the simulated scenes
 swiftlet_backend(NAME octomap PACKAGE octomap)  # writes and reads .bt / .ot
-swiftlet_backend(NAME ompl PACKAGE ompl)          # plans paths on the map
+swiftlet_backend(NAME ompl PACKAGE ompl)        # plans paths on the map
 swiftlet_backend(NAME realsense PACKAGE realsense2)  # live cameras (docs/realsense.md)
 
 # The program.

@@ -49,10 +49,10 @@ std::uintmax_t bytes_of(const SavedMap& map) {
 void print_text(const SavedMap& map, const MapSummary& summary, const std::string& note) {
   fmt::print("{} ({})\n", visible(map.path().string()), size_text(bytes_of(map)));
   fmt::print("  frames     {}\n", map.frames());
-  fmt::print("  voxels      {} occupied, {} free, {} unknown in {} blocks\n",
+  fmt::print("  voxels     {} occupied, {} free, {} unknown in {} blocks\n",
              summary.voxels.occupied, summary.voxels.free, summary.voxels.unknown,
              map.block_count());
-  fmt::print("  voxel size  {} m\n", map.voxel_m());
+  fmt::print("  voxel size {} m\n", map.voxel_m());
   if (const auto b = bounds_of(map, summary)) {
     fmt::print("  bounds     x {:.2f} .. {:.2f}, y {:.2f} .. {:.2f}, z {:.2f} .. {:.2f} m\n",
                b->low.x(), b->high.x(), b->low.y(), b->high.y(), b->low.z(), b->high.z());

@@ -51,12 +51,12 @@ std::string rows_text(std::span<const BenchRow> rows) {
   std::size_t width = 8;
   for (const BenchRow& row : rows) width = std::max(width, row.workload.size());
   std::string text =
-      fmt::format("{:{}}  {:>6}  {:<19} {:>7} {:>6} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9}\n",
+      fmt::format("{:{}}  {:>7}  {:<19} {:>7} {:>6} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9}\n",
                   "workload", width, "voxel m", "integrator", "threads", "frames", "min ms",
                   "median ms", "p99 ms", "Mpixel/s", "map", "x plain", "x discr.");
   for (const BenchRow& r : rows) {
     text += fmt::format(
-        "{:{}}  {:>6}  {:<19} {:>7} {:>6} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.1f} {:>9} {:>9} {:>9}\n",
+        "{:{}}  {:>7}  {:<19} {:>7} {:>6} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.1f} {:>9} {:>9} {:>9}\n",
         r.workload, width, r.voxel_m, r.integrator, r.threads, r.frames, r.min_ms, r.median_ms,
         r.p99_ms, r.mpixel_s, size_text(r.map_bytes), ratio_text(r.speedup_vs_octomap_plain),
         ratio_text(r.speedup_vs_octomap_discretised));

@@ -31,7 +31,7 @@ std::optional<Corners> corners_of(const OctomapSummary& octomap) {
 std::string octomap_text(const std::string& path, std::uintmax_t bytes,
                          const OctomapSummary& octomap) {
   std::string text = fmt::format(
-      "{} ({}): OctoMap, {}\n  voxels      {} occupied, {} free in {} leaves\n  voxel size  {} m\n",
+      "{} ({}): OctoMap, {}\n  voxels     {} occupied, {} free in {} leaves\n  voxel size {} m\n",
       visible(path), size_text(bytes), octomap.kind, octomap.occupied_voxels, octomap.free_voxels,
       octomap.leaves, octomap.voxel_m);
   if (const auto c = corners_of(octomap)) {

@@ -110,7 +110,7 @@ std::string files_text(const std::vector<SavedFile>& files) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto& [path, bytes, blocks, frames, voxels] = files[i];
     if (files.size() > 1) text += fmt::format("  world {:<4} {} frames\n", i + 1, frames);
-    text += fmt::format("  voxels      {} occupied, {} free, {} unknown in {} blocks\n",
+    text += fmt::format("  voxels     {} occupied, {} free, {} unknown in {} blocks\n",
                         voxels.occupied, voxels.free, voxels.unknown, blocks);
     text += fmt::format("  map        {} ({})\n", path, size_text(bytes));
   }
