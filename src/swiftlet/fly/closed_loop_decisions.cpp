@@ -20,7 +20,6 @@ constexpr Nanoseconds kThink{300'000'000};
 constexpr Nanoseconds kWarmUp_ns{1'000'000'000};
 constexpr Nanoseconds kLook{400'000'000};  // six frames at a view
 constexpr double kSameTarget_m = 1.2;
-constexpr std::size_t kFewVoxels = 8;  // of a frontier that counts
 
 }  // namespace
 
@@ -79,7 +78,7 @@ bool ClosedLoop::has_looked_in_vain(const Eigen::Vector3d& p) {
   const auto times = std::ranges::count_if(looked_at_, [&](const Eigen::Vector3d& before) {
     return (before - p).norm() < kSamePlace_m;
   });
-  return times >= kOften || frontier_near(p) >= kFewVoxels;
+  return times >= kOften || frontier_near(p) >= TargetChoice::kFewVoxels;
 }
 
 /// Whether the camera has been turned to a place for so long that what is a frontier there stays
@@ -129,8 +128,8 @@ void ClosedLoop::think() {
   // From where the vehicle can still stop when the answer comes.
   const double commit_m = std::min(follower_.end_m(), locked_m() + 2.0 * follower_.stopping_m());
   const Eigen::Vector3d from = follower_.place_at(commit_m);
-  const double needed_m = options_.body_radius_m + options_.margin_m +
-                          0.5 * std::numbers::sqrt3 * view_.map().voxel_m();
+  const double needed_m =
+      room_for_ball_m(options_.body_radius_m + options_.margin_m, view_.map().voxel_m());
   space_.flood(view_.field(), Obstacles::kNotFree, from, needed_m);
   std::optional<FlightTarget> target;
   if (is_going_home_) {

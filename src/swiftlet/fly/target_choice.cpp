@@ -11,12 +11,11 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kOnward = 1.5;        // what a metre to the goal counts, against one of known way
-constexpr double kGivenUp_m = 0.7;     // around what was looked at in vain
-constexpr double kKeep = 1.25;         // another target must be better by so much
-constexpr double kSame_m = 1.2;        // two targets that look at places so near are one
-constexpr std::size_t kFewVoxels = 8;  // of a frontier that counts
-constexpr double kUsualGain = 400.0;   // unknown voxels in sight that are worth a metre of way
+constexpr double kOnward = 1.5;       // what a metre to the goal counts, against one of known way
+constexpr double kGivenUp_m = 0.7;    // around what was looked at in vain
+constexpr double kKeep = 1.25;        // another target must be better by so much
+constexpr double kSame_m = 1.2;       // two targets that look at places so near are one
+constexpr double kUsualGain = 400.0;  // unknown voxels in sight that are worth a metre of way
 
 double yaw_of(const Transform<World, Body>& T) {
   const Eigen::Vector3d ahead = T.rotation() * Eigen::Vector3d::UnitX();

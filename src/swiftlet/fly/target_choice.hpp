@@ -44,6 +44,8 @@ class TargetChoice {
     double goal_radius_m = 0.3;  ///< where the goal itself has no room, so near will do
     double max_speed_mps = 2.0;
   };
+  static constexpr std::size_t kFewVoxels = 8;  ///< of a frontier that counts
+
   TargetChoice(const Options& options, const ViewCamera& camera, const BodyShape& body,
                const SweepPolicy& policy)
       : options_(options), camera_(camera), body_(body), policy_(policy) {}

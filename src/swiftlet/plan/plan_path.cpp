@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -118,9 +117,8 @@ std::vector<Eigen::Vector3d> way_on_the_grid(const MotionCheck& check, const Eig
                                              const Eigen::Vector3d& to) {
   const double voxel_m = check.map().voxel_m();
   ReachableSpace space;
-  const double room_m = check.body().reach_m() + check.policy().margin_m +
-                        0.5 * std::numbers::sqrt3 * voxel_m;  // to an obstacle's rim
-  space.flood(check.field(), check.obstacles(), from, room_m);
+  const double radius_m = check.body().reach_m() + check.policy().margin_m;
+  space.flood(check.field(), check.obstacles(), from, room_for_ball_m(radius_m, voxel_m));
   std::vector<Eigen::Vector3d> way;
   for (const VoxelIndex& v : space.way_to(voxel_containing(to, voxel_m)))
     way.push_back(centre_of(v, voxel_m));

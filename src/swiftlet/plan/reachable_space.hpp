@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,12 @@
 #include "swiftlet/query/distance/distance_field.hpp"
 
 namespace swiftlet {
+
+/// What a ball needs around it for ReachableSpace::flood(), from the middle of its voxel to that of
+/// the nearest obstacle: its radius, and half a diagonal to the obstacle's rim. [m]
+[[nodiscard]] inline double room_for_ball_m(double radius_m, double voxel_m) {
+  return radius_m + 0.5 * std::numbers::sqrt3 * voxel_m;
+}
 
 /// Where a vehicle can get to from a place, and how far it is: a flood over the voxels of a
 /// distance field that have room enough, from voxel to voxel by faces and edges.

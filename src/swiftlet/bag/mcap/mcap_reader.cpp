@@ -12,7 +12,6 @@
 
 #include "swiftlet/bag/byte_cursor.hpp"
 #include "swiftlet/bag/chunk_codec.hpp"
-#include "swiftlet/bag/message_types.hpp"
 
 namespace swiftlet {
 namespace {
@@ -37,12 +36,6 @@ std::uint64_t most_bytes_of(Op op) {
     default:
       return kMostHeaderBytes;
   }
-}
-
-MessageEncoding encoding_of(std::string_view name) {
-  if (name == "cdr") return MessageEncoding::kCdr;
-  if (name == "ros1") return MessageEncoding::kRos1;
-  return MessageEncoding::kOther;
 }
 
 }  // namespace
@@ -197,41 +190,12 @@ Status McapReader::check_data(const FileRecord& record) {
   return Done{};
 }
 
-Status McapReader::add_schema(mcap::Body body, std::uint64_t offset) {
-  const auto schema = mcap::parse_schema(body);
-  if (!schema || schema->id == 0 || schema->name.size() > kMostNameBytes)
-    return corrupt(offset, "a schema here is malformed");
-  const std::string type = plain_type_name(schema->name);
-  const auto [place, is_new] = type_by_schema_.emplace(schema->id, type);
-  if (!is_new && place->second != type) return corrupt(offset, "two schemas share one number");
-  return Done{};
-}
-
-Status McapReader::add_channel(mcap::Body body, std::uint64_t offset) {
-  const auto channel = mcap::parse_channel(body);
-  if (!channel || channel->topic.size() > kMostNameBytes)
-    return corrupt(offset, "a channel here is malformed");
-  const auto known = channels_.find(channel->id);
-  if (known != channels_.end()) {
-    if (known->second.topic == channel->topic) return Done{};
-    return corrupt(offset, "two topics share one number");
-  }
-  const auto type = type_by_schema_.find(channel->schema_id);
-  if (channel->schema_id != 0 && type == type_by_schema_.end())
-    return corrupt(offset, fmt::format("the schema of {} is missing", channel->topic));
-  channels_.emplace(channel->id,
-                    BagConnection{.id = channel->id,
-                                  .topic = std::string(channel->topic),
-                                  .type = channel->schema_id == 0 ? std::string() : type->second,
-                                  .encoding = encoding_of(channel->message_encoding)});
-  return Done{};
-}
-
 McapReader::MessageOrNone McapReader::message_of(mcap::Body body, std::uint64_t offset) {
   const auto message = mcap::parse_message(body);
   if (!message) return corrupt(offset, "a message here is malformed");
-  const auto channel = channels_.find(message->channel_id);
-  if (channel == channels_.end()) return corrupt(offset, "a message here tells no known topic");
+  const auto channel = topics_.channels().find(message->channel_id);
+  if (channel == topics_.channels().end())
+    return corrupt(offset, "a message here tells no known topic");
   constexpr std::uint64_t kLatest = std::numeric_limits<std::int64_t>::max();
   if (message->log_time_ns > kLatest) return corrupt(offset, "a message here tells no time");
   return BagMessage{&channel->second, Stamp{static_cast<std::int64_t>(message->log_time_ns)},
@@ -241,10 +205,10 @@ McapReader::MessageOrNone McapReader::message_of(mcap::Body body, std::uint64_t 
 /// A record that may stand in a chunk or outside.
 McapReader::MessageOrNone McapReader::take(Op op, mcap::Body body, std::uint64_t offset) {
   if (op == Op::kMessage) return message_of(body, offset);
-  Status added = Done{};
-  if (op == Op::kSchema) added = add_schema(body, offset);
-  if (op == Op::kChannel) added = add_channel(body, offset);
-  if (!added) return forward_error(std::move(added));
+  std::optional<std::string> fault;
+  if (op == Op::kSchema) fault = topics_.add_schema(body);
+  if (op == Op::kChannel) fault = topics_.add_channel(body);
+  if (fault) return corrupt(offset, std::move(*fault));
   return std::nullopt;
 }
 

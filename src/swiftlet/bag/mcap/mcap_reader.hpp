@@ -14,6 +14,7 @@
 
 #include "swiftlet/bag/byte_source.hpp"
 #include "swiftlet/bag/mcap/mcap_records.hpp"
+#include "swiftlet/bag/mcap/mcap_topics.hpp"
 #include "swiftlet/bag/recording_reader.hpp"
 
 namespace swiftlet {
@@ -35,7 +36,7 @@ class McapReader final : public RecordingReader {
   [[nodiscard]] static Expected<McapReader> open(ByteSourcePtr bytes);
 
   [[nodiscard]] const std::map<std::uint32_t, BagConnection>& connections() const override {
-    return channels_;
+    return topics_.channels();
   }
   [[nodiscard]] const std::string& name() const override { return bytes_->name(); }
   [[nodiscard]] RecordingInfo info() const override;
@@ -62,8 +63,6 @@ class McapReader final : public RecordingReader {
   [[nodiscard]] Status begin_chunk(const FileRecord& record);
   [[nodiscard]] Status unpack(const mcap::Chunk& chunk, std::uint64_t offset);
   [[nodiscard]] Status check_data(const FileRecord& record);
-  [[nodiscard]] Status add_schema(mcap::Body body, std::uint64_t offset);
-  [[nodiscard]] Status add_channel(mcap::Body body, std::uint64_t offset);
   [[nodiscard]] MessageOrNone message_of(mcap::Body body, std::uint64_t offset);
   [[nodiscard]] tl::unexpected<Error> corrupt(std::uint64_t offset, std::string what);
   [[nodiscard]] tl::unexpected<Error> cut_off(std::uint64_t offset, std::string what);
@@ -76,8 +75,7 @@ class McapReader final : public RecordingReader {
   std::set<std::string> compression_;
   std::uint64_t packed_bytes_ = 0, unpacked_bytes_ = 0;  // of chunks so far
   std::optional<std::uint32_t> data_crc_;                // of the file so far, if it has no chunks
-  std::map<std::uint16_t, std::string> type_by_schema_;
-  std::map<std::uint32_t, BagConnection> channels_;
+  mcap::McapTopics topics_;
   std::vector<std::byte> body_, unpacked_;
   mcap::Body chunk_{};  // what is left of it, in body_ or unpacked_
   std::uint64_t chunk_offset_ = 0;

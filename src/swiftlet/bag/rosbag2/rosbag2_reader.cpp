@@ -14,6 +14,7 @@
 #include "swiftlet/bag/byte_cursor.hpp"
 #include "swiftlet/bag/chunk_codec.hpp"
 #include "swiftlet/bag/message_types.hpp"
+#include "swiftlet/file/sqlite_uri.hpp"
 
 namespace swiftlet {
 namespace {
@@ -31,18 +32,6 @@ struct FinalizeStatement {
 };
 using DatabasePtr = std::unique_ptr<sqlite3, CloseDatabase>;
 using StatementPtr = std::unique_ptr<sqlite3_stmt, FinalizeStatement>;
-
-/// "file:///a%20bag.db3?...": nothing in a path may look like an option.
-std::string uri_of(const std::filesystem::path& path, std::string_view options) {
-  std::error_code none;
-  std::string uri = "file://";
-  for (const char c : std::filesystem::absolute(path, none).string()) {
-    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                          (c >= '0' && c <= '9') || c == '/' || c == '.' || c == '-' || c == '_';
-    uri += is_plain ? std::string(1, c) : fmt::format("%{:02x}", static_cast<unsigned char>(c));
-  }
-  return uri + std::string(options);
-}
 
 /// Whether there is a log with messages that the database does not hold yet.
 bool has_write_ahead_log(const std::filesystem::path& path) {
@@ -71,7 +60,7 @@ class Rosbag2Reader::Rows {
   /// Opened so that reading changes nothing on the disk, unless a log has to be read, too.
   static int open(const std::filesystem::path& path, Rows& rows) {
     const bool is_logged = has_write_ahead_log(path);
-    const std::string uri = uri_of(path, is_logged ? "?mode=ro" : "?mode=ro&immutable=1");
+    const std::string uri = sqlite_uri(path, is_logged ? "mode=ro" : "mode=ro&immutable=1");
     constexpr int kFlags = SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX;
     sqlite3* raw = nullptr;
     const int code = sqlite3_open_v2(uri.c_str(), &raw, kFlags, nullptr);

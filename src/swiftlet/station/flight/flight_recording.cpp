@@ -199,22 +199,22 @@ Status FlightRecording::write_voxels(Stamp now) {
       model_.last_frame() &&
       model_.last_frame()->T_world_camera.translation().cwiseAbs().maxCoeff() > kFloatReaches_m;
   ros2::VoxelCloud occupied("log_odds", is_far), changes("log_odds", is_far);
-  model_.map().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
+  const auto add = [&](ros2::VoxelCloud& cloud, const BlockIndex& index, const VoxelBlock& block,
+                       bool with_free) {
     for (int i = 0; i < kBlockVoxels; ++i) {
       const QuantizedLogOdds voxel = block.voxels[static_cast<std::size_t>(i)];
-      if (scale.classify(voxel) == Occupancy::kOccupied)
-        occupied.add(centre_of(voxel_at(index, i), voxel_m), voxel);
+      const Occupancy state = scale.classify(voxel);
+      if (state == Occupancy::kOccupied || (with_free && state == Occupancy::kFree))
+        cloud.add(centre_of(voxel_at(index, i), voxel_m), voxel);
     }
+  };
+  model_.map().for_each_known_block([&](const BlockIndex& index, const VoxelBlock& block) {
+    add(occupied, index, block, false);
   });
   std::ranges::sort(changed_, {}, [](const BlockIndex& b) { return std::array{b.x, b.y, b.z}; });
   changed_.erase(std::ranges::unique(changed_).begin(), changed_.end());
   for (const BlockIndex& index : changed_) {
-    const VoxelBlock* block = model_.map().find(index);
-    for (int i = 0; block != nullptr && i < kBlockVoxels; ++i) {
-      const QuantizedLogOdds voxel = block->voxels[static_cast<std::size_t>(i)];
-      if (scale.classify(voxel) != Occupancy::kUnknown)
-        changes.add(centre_of(voxel_at(index, i), voxel_m), voxel);
-    }
+    if (const VoxelBlock* block = model_.map().find(index)) add(changes, index, *block, true);
   }
   changed_.clear();
   const ros2::Header header{now, kMapFrame};

@@ -3,7 +3,6 @@
 
 #include "swiftlet/store/map_file/sqlite.hpp"
 
-#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "swiftlet/base/narrow.hpp"
+#include "swiftlet/file/sqlite_uri.hpp"
 
 namespace swiftlet::sqlite {
 namespace {
@@ -24,18 +24,6 @@ std::string system_reason(sqlite3* connection) {
   const int number = connection == nullptr ? 0 : sqlite3_system_errno(connection);
   return number == 0 ? std::string{}
                      : std::string(" (") + std::generic_category().message(number) + ")";
-}
-
-std::string immutable_uri(const std::filesystem::path& path) {
-  std::error_code none;
-  const std::filesystem::path whole = std::filesystem::absolute(path, none);
-  std::string uri = "file://";
-  for (const char c : whole.string()) {
-    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                          (c >= '0' && c <= '9') || c == '/' || c == '.' || c == '-' || c == '_';
-    uri += is_plain ? std::string(1, c) : fmt::format("%{:02x}", static_cast<unsigned char>(c));
-  }
-  return uri + "?immutable=1";
 }
 
 tl::unexpected<Error> failure(sqlite3* connection, int code, const std::string& where) {
@@ -147,7 +135,7 @@ Expected<Database> Database::open(const std::filesystem::path& path, Mode mode,
   std::string name = path.string();
   if (mode == Mode::kImmutable) {
     flags |= SQLITE_OPEN_URI;
-    name = immutable_uri(path);
+    name = sqlite_uri(path, "immutable=1");
   }
   sqlite3* connection = nullptr;
   const int code = sqlite3_open_v2(name.c_str(), &connection, flags | SQLITE_OPEN_NOMUTEX, nullptr);
