@@ -9,15 +9,11 @@
 
 #include <utility>
 
+#include "swiftlet/eval/bench/bench_points.hpp"
+#include "swiftlet/eval/bench/octomap_keys_private.hpp"
+
 namespace swiftlet {
 namespace {
-
-/// OctoMap counts its voxels from here, on the same grid as ours.
-constexpr int kZeroKey = 32768;
-
-VoxelIndex voxel_of(const octomap::OcTreeKey& key) {
-  return {key[0] - kZeroKey, key[1] - kZeroKey, key[2] - kZeroKey};
-}
 
 /// An octree with OctoMap's own sensor model, and a window of what it claims, kept up to date by
 /// the keys that it says have changed.
@@ -30,15 +26,9 @@ class OctomapMap final : public FlownMap, private BlockArchive {
 
   bool integrate(const Frame& frame) override {
     octomap::Pointcloud cloud;
-    for (int v = 0; v < frame.depth.raw.height(); ++v) {
-      for (int u = 0; u < frame.depth.raw.width(); ++u) {
-        const double z_m = frame.depth.depth_m(u, v);
-        if (!(z_m >= config_.depth.min_range_m && z_m <= config_.depth.max_range_m)) continue;
-        const Eigen::Vector3f p =
-            (frame.T_world_camera * frame.intrinsics.back_project(u, v, z_m)).cast<float>();
-        cloud.push_back(p.x(), p.y(), p.z());
-      }
-    }
+    cloud.reserve(frame.depth.raw.pixels().size());
+    eval::for_each_point(frame, config_.depth,
+                         [&](const Eigen::Vector3f& p) { cloud.push_back(p.x(), p.y(), p.z()); });
     if (cloud.size() == 0) return false;
     const Eigen::Vector3f eye = frame.T_world_camera.translation().cast<float>();
     constexpr double kNoLimit = -1.0;  // the cloud keeps it by depth, as ours does
@@ -68,7 +58,7 @@ class OctomapMap final : public FlownMap, private BlockArchive {
     return tree_.isNodeOccupied(node) ? kOccupiedVoxel : kFreeVoxel;
   }
   void copy(const octomap::OcTreeKey& key) {
-    const VoxelIndex v = voxel_of(key);
+    const VoxelIndex v = eval::voxel_of(key);
     if (!window_.window().contains(block_of(v))) return;
     window_.writable(block_of(v)).voxels[offset_in_block(v)] = claim_of(key);
   }
@@ -78,11 +68,7 @@ class OctomapMap final : public FlownMap, private BlockArchive {
   bool restore(const BlockIndex& index, VoxelBlock& out) override {
     bool is_known = false;
     for (int i = 0; i < kBlockVoxels; ++i) {
-      const VoxelIndex v = voxel_at(index, i);
-      const octomap::OcTreeKey key(static_cast<octomap::key_type>(v.x + kZeroKey),
-                                   static_cast<octomap::key_type>(v.y + kZeroKey),
-                                   static_cast<octomap::key_type>(v.z + kZeroKey));
-      out.voxels[static_cast<std::size_t>(i)] = claim_of(key);
+      out.voxels[static_cast<std::size_t>(i)] = claim_of(eval::key_of(voxel_at(index, i)));
       is_known |= out.voxels[static_cast<std::size_t>(i)] != kUnknownVoxel;
     }
     return is_known;

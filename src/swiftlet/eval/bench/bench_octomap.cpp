@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "swiftlet/eval/bench/bench_points.hpp"
+#include "swiftlet/eval/bench/octomap_keys_private.hpp"
 
 namespace swiftlet::eval {
 namespace {
@@ -45,25 +46,16 @@ class OctomapSubject final : public BenchmarkSubject {
          ++leaf) {
       const Occupancy state = tree_.isNodeOccupied(*leaf) ? Occupancy::kOccupied : Occupancy::kFree;
       const int edge = 1 << (tree_.getTreeDepth() - leaf.getDepth());  // of a pruned node [voxels]
-      const octomap::OcTreeKey corner = leaf.getIndexKey();
+      const VoxelIndex corner = voxel_of(leaf.getIndexKey());
       for (int i = 0; i < edge * edge * edge; ++i) {
-        const VoxelIndex v{corner[0] - kZeroKey + i % edge, corner[1] - kZeroKey + i / edge % edge,
-                           corner[2] - kZeroKey + i / edge / edge};
+        const VoxelIndex v{corner.x + i % edge, corner.y + i / edge % edge,
+                           corner.z + i / edge / edge};
         if (claims.contains(v)) claims.at(v) = state;
       }
     }
   }
 
  private:
-  /// OctoMap counts its voxels from here, on the same grid as ours.
-  static constexpr int kZeroKey = 32768;
-  static octomap::OcTreeKey key_of(const VoxelIndex& v) {
-    const auto key = [](std::int32_t i) {
-      return static_cast<octomap::key_type>(std::clamp(i + kZeroKey, 0, 2 * kZeroKey - 1));
-    };
-    return {key(v.x), key(v.y), key(v.z)};
-  }
-
   PreprocessOptions range_;
   bool is_discretised_;
   octomap::OcTree tree_;
