@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <system_error>
 
 namespace swiftlet {
@@ -59,6 +58,18 @@ std::vector<std::string> split_list(std::string_view text) {
     begin = end + 1;
   }
   return parts;
+}
+
+std::vector<std::filesystem::path> existing_files(std::string_view address) {
+  const std::size_t kind = address.find(':');  // npos + 1 is 0: an address without a kind
+  const auto parsed = parse_place_address(address.substr(kind + 1), address.substr(0, kind));
+  std::vector<std::filesystem::path> files;
+  if (!parsed) return files;
+  for (const std::string& part : split_list(parsed->place)) {
+    std::error_code unreadable;
+    if (std::filesystem::is_regular_file(part, unreadable)) files.emplace_back(part);
+  }
+  return files;
 }
 
 std::string with_option(std::string address, std::string_view key, std::string_view value) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,6 +29,9 @@ struct SourceAddress {
 
 /// The parts of a list "a,b,c"; one empty part of an empty text.
 [[nodiscard]] std::vector<std::string> split_list(std::string_view text);
+
+/// The files that the address of a source names, KIND:FILE[,FILE...][?...]; those that exist.
+[[nodiscard]] std::vector<std::filesystem::path> existing_files(std::string_view address);
 
 /// Adds an option to an address.
 [[nodiscard]] std::string with_option(std::string address, std::string_view key,

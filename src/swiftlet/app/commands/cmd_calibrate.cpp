@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/input_files.hpp"
 #include "swiftlet/app/report/calibration_report.hpp"
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/base/angle.hpp"
 #include "swiftlet/base/number_text.hpp"
 #include "swiftlet/file/output_file.hpp"
 #include "swiftlet/file/text_output.hpp"
+#include "swiftlet/source/address_options.hpp"
 
 namespace swiftlet::app {
 namespace {
@@ -73,9 +73,9 @@ Error no_distance(const std::string& text) {
 /// Told before the recordings are read.
 Status check_parameters_file(const CalibrateOptions& options) {
   if (options.out.empty()) return Done{};
-  std::vector<std::filesystem::path> inputs = input_files(options.source);
+  std::vector<std::filesystem::path> inputs = existing_files(options.source);
   for (const std::string& check : options.checks) {
-    for (auto& file : input_files(check)) inputs.push_back(std::move(file));
+    for (auto& file : existing_files(check)) inputs.push_back(std::move(file));
   }
   return check_output(options.out, inputs);
 }

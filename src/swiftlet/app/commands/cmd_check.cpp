@@ -8,7 +8,7 @@
 
 #include "swiftlet/app/command.hpp"
 #include "swiftlet/app/report/checked_files.hpp"
-#include "swiftlet/app/report/salvage_report.hpp"
+#include "swiftlet/app/report/map_report.hpp"
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/store/map_file/salvage.hpp"
 

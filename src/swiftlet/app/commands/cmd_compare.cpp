@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/commands/map_flags.hpp"
+#include "swiftlet/app/commands/shared_flags.hpp"
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/eval/score/cube_claims.hpp"
 #include "swiftlet/file/file_kind.hpp"

@@ -6,8 +6,7 @@
 #include <memory>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/commands/config_flags.hpp"
-#include "swiftlet/app/commands/place_option.hpp"
+#include "swiftlet/app/commands/shared_flags.hpp"
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/report/flight_summary.hpp"
 #include "swiftlet/config/config_file.hpp"

@@ -8,10 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/commands/map_flags.hpp"
+#include "swiftlet/app/commands/shared_flags.hpp"
 #include "swiftlet/app/report/bag_summary.hpp"
-#include "swiftlet/app/report/octomap_summary.hpp"
-#include "swiftlet/app/report/salvage_report.hpp"
+#include "swiftlet/app/report/map_report.hpp"
 #include "swiftlet/app/report/summary.hpp"
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/bag/file_or_recording.hpp"

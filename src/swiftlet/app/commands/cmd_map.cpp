@@ -12,11 +12,10 @@
 #include <span>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/commands/config_flags.hpp"
 #include "swiftlet/app/commands/rig_flags.hpp"
+#include "swiftlet/app/commands/shared_flags.hpp"
 #include "swiftlet/app/config_warnings.hpp"
 #include "swiftlet/app/events.hpp"
-#include "swiftlet/app/input_files.hpp"
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/progress.hpp"
 #include "swiftlet/app/report/summary.hpp"
@@ -28,6 +27,7 @@
 #include "swiftlet/session/flight_recovery.hpp"
 #include "swiftlet/session/mapping_session.hpp"
 #include "swiftlet/session/observers.hpp"
+#include "swiftlet/source/address_options.hpp"
 #include "swiftlet/source/rig/real_time_source.hpp"
 #include "swiftlet/source/sources.hpp"
 #include "swiftlet/station/flight/flight_recorder.hpp"
@@ -81,7 +81,7 @@ Status check_name_is_free(const MapOptions& options) {
   if (!recovered) return forward_error(std::move(recovered));
   for (const std::string& note : *recovered)
     std::fputs(("swiftlet: " + note + "\n").c_str(), stderr);
-  const auto inputs = input_files(options.source);
+  const auto inputs = existing_files(options.source);
   if (auto allowed = check_recording_name(options, inputs); !allowed) return allowed;
   auto free = check_flight_file(options.out, options.overwrite, inputs);
   return free ? check_room_for_flight(options.out) : free;

@@ -9,8 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/commands/map_flags.hpp"
-#include "swiftlet/app/commands/place_option.hpp"
+#include "swiftlet/app/commands/shared_flags.hpp"
 #include "swiftlet/app/visible_text.hpp"
 #include "swiftlet/file/output_file.hpp"
 #include "swiftlet/map/map_window.hpp"

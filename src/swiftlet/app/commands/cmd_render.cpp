@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/commands/map_flags.hpp"
+#include "swiftlet/app/commands/shared_flags.hpp"
 #include "swiftlet/file/output_file.hpp"
 #include "swiftlet/render/projection.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/commands/config_flags.hpp"
+#include "swiftlet/app/commands/shared_flags.hpp"
 #include "swiftlet/app/config_warnings.hpp"
 #include "swiftlet/app/progress.hpp"
 #include "swiftlet/app/report/score_report.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "swiftlet/app/command.hpp"
-#include "swiftlet/app/commands/map_flags.hpp"
+#include "swiftlet/app/commands/shared_flags.hpp"
 #include "swiftlet/app/view/map_saver.hpp"
 #include "swiftlet/app/view/station_flags.hpp"
 

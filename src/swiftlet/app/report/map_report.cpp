@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/app/report/octomap_summary.hpp"
+#include "swiftlet/app/report/map_report.hpp"
 
 #include <fmt/format.h>
 
@@ -57,6 +57,15 @@ std::string octomap_json(const std::string& path, std::uintmax_t bytes,
                         {"high", {c->high.x(), c->high.y(), c->high.z()}}};
   }
   return json_text(json) + "\n";
+}
+
+nlohmann::ordered_json salvage_json(const SalvageReport& report) {
+  nlohmann::ordered_json json{{"kept", report.kept},
+                              {"missing", nullptr},
+                              {"is_whole", report.is_whole()},
+                              {"lines", report.lines()}};
+  if (report.missing) json["missing"] = *report.missing;
+  return json;
 }
 
 }  // namespace swiftlet::app
