@@ -13,7 +13,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::string_view kOwnOptions =
+constexpr std::string_view kSimOptions =
     "seed=N, noise=on|off, drift=on|off, start=SECONDS, frames=N, rate=HZ, barrel=SHARE, "
     "cameras=1..8, shuffle=N, fault=NAME, fault_at=SECONDS; of random scenes: size=METRES, "
     "density=0..3, thinnest=METRES";
@@ -89,7 +89,7 @@ Expected<SimOptions> parse_sim_options(const SourceAddress& address) {
   options.rig = options.rig_file ? options.rig_file->rig : intel_t265_d435_rig().rig;
   for (const auto& [key, value] : address.options) {
     if (!apply(key, value, options))
-      return bad_option("sim", key, value, fmt::format("{}, {}", kOwnOptions, kRigOptions));
+      return bad_option("sim", key, value, fmt::format("{}, {}", kSimOptions, kRigOptions));
   }
   return options;
 }

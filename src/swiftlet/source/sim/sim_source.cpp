@@ -16,10 +16,10 @@
 
 #include "swiftlet/base/narrow.hpp"
 #include "swiftlet/base/voxel_index.hpp"
-#include "swiftlet/sim/pose_faults.hpp"
 #include "swiftlet/sim/ray_caster.hpp"
 #include "swiftlet/sim/stereo_camera.hpp"
-#include "swiftlet/sim/tracker.hpp"
+#include "swiftlet/sim/tracker/pose_faults.hpp"
+#include "swiftlet/sim/tracker/tracker.hpp"
 #include "swiftlet/source/rig/rig.hpp"
 #include "swiftlet/source/rig/t265_axes.hpp"
 #include "swiftlet/source/sim/sim_flight.hpp"

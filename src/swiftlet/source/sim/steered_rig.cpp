@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "swiftlet/base/contract.hpp"
-#include "swiftlet/sim/pose_faults.hpp"
+#include "swiftlet/sim/tracker/pose_faults.hpp"
 #include "swiftlet/source/rig/t265_axes.hpp"
 
 namespace swiftlet {

@@ -12,11 +12,11 @@
 #include "swiftlet/base/expected.hpp"
 #include "swiftlet/base/frame_of.hpp"
 #include "swiftlet/frame/frame.hpp"
-#include "swiftlet/sim/pose_delivery.hpp"
 #include "swiftlet/sim/ray_caster.hpp"
 #include "swiftlet/sim/scene.hpp"
 #include "swiftlet/sim/stereo_camera.hpp"
-#include "swiftlet/sim/tracker_model.hpp"
+#include "swiftlet/sim/tracker/pose_delivery.hpp"
+#include "swiftlet/sim/tracker/tracker_model.hpp"
 #include "swiftlet/source/rig/rig.hpp"
 #include "swiftlet/source/rig/rig_file.hpp"
 

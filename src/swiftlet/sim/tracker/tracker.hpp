@@ -7,7 +7,7 @@
 
 #include "swiftlet/base/time.hpp"
 #include "swiftlet/sim/scene.hpp"
-#include "swiftlet/sim/tracker_model.hpp"
+#include "swiftlet/sim/tracker/tracker_model.hpp"
 
 namespace swiftlet::sim {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/sim/tracker_model.hpp"
+#include "swiftlet/sim/tracker/tracker_model.hpp"
 
 #include <cmath>
 #include <limits>

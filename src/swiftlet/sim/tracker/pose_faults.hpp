@@ -7,8 +7,8 @@
 #include <span>
 
 #include "swiftlet/base/registry.hpp"
-#include "swiftlet/sim/pose_delivery.hpp"
-#include "swiftlet/sim/tracker.hpp"
+#include "swiftlet/sim/tracker/pose_delivery.hpp"
+#include "swiftlet/sim/tracker/tracker.hpp"
 
 namespace swiftlet::sim {
 

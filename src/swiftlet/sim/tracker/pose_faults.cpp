@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/sim/pose_faults.hpp"
+#include "swiftlet/sim/tracker/pose_faults.hpp"
 
 #include <array>
 #include <limits>

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "swiftlet/base/time.hpp"
-#include "swiftlet/sim/tracker_model.hpp"
+#include "swiftlet/sim/tracker/tracker_model.hpp"
 
 namespace swiftlet::sim {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
-#include "swiftlet/sim/pose_delivery.hpp"
+#include "swiftlet/sim/tracker/pose_delivery.hpp"
 
 #include <utility>
 
