@@ -15,7 +15,7 @@ die() {
 # The exit code of a check that does not apply here, as in automake.
 export skipped=77
 
-# SWIFTLET_JOBS overrides how many compilers run at once; each takes up to 1 GB.
+# SWIFTLET_JOBS overrides how much runs at once.
 export jobs=${SWIFTLET_JOBS:-$(nproc)}
 
 # The project that a preset belongs to.

@@ -3,13 +3,16 @@
 
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <span>
 #include <string>
 
 #include "swiftlet/base/faults.hpp"
 #include "swiftlet/base/registry.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace swiftlet::app {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright the Swiftlet authors
 
+#include <CLI/CLI.hpp>
 #include <array>
 
 #include "swiftlet/app/command.hpp"

@@ -14,7 +14,6 @@ namespace {
 constexpr int kMargin_px = 28;
 constexpr int kTick_px = 6;
 constexpr int kLongTick_px = 12;
-constexpr Colour kPaper{255, 255, 255};
 constexpr Colour kInk{70, 70, 70};
 constexpr Colour kStartInk{214, 39, 40};
 constexpr Colour kPathInk{227, 26, 175};

@@ -13,6 +13,10 @@
 
 namespace swiftlet::render {
 
+inline constexpr Colour kPaper{255, 255, 255};
+inline constexpr Colour kUnseen{205, 208, 212};      ///< seen from above: columns never looked into
+inline constexpr Colour kFreeGround{250, 248, 240};  ///< and those without an occupied voxel
+
 /// A picture of the world from above, one square per column of voxels: x forward is up, y left is
 /// left. Around it a margin with a tick every metre (longer every five; in large maps every 2, 5,
 /// 10 .. metres) and in the lower left corner a bar from one tick to the next; a cross marks where

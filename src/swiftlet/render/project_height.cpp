@@ -6,12 +6,6 @@
 #include "swiftlet/render/floor_plan.hpp"
 
 namespace swiftlet::render {
-namespace {
-
-constexpr Colour kUnseen{205, 208, 212};
-constexpr Colour kFree{250, 248, 240};
-
-}  // namespace
 
 Picture draw_height(const BlockMap& map, const VoxelBox& whole, const ProjectionOptions& options) {
   const VoxelBox box = cut_box(whole, map.voxel_m(), options);
@@ -22,7 +16,7 @@ Picture draw_height(const BlockMap& map, const VoxelBox& whole, const Projection
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
     const Column column = columns.at(x, y);
     const double height = static_cast<double>(column.highest - low) / span;
-    const Colour empty = column.free > 0 ? kFree : kUnseen;
+    const Colour empty = column.free > 0 ? kFreeGround : kUnseen;
     plan.fill_column(x, y, column.occupied > 0 ? height_colour(height) : empty);
   });
   return std::move(plan).finish(options);

@@ -13,8 +13,7 @@ namespace swiftlet::render {
 namespace {
 
 constexpr int kSupersampling = 2;
-constexpr double kMargin_px = 24.0;
-constexpr Colour kPaper{255, 255, 255};
+constexpr double kBorder_px = 24.0;
 constexpr Colour kFloor{236, 238, 241};
 
 /// The face of a voxel that looks along +-1 of one axis.
@@ -39,7 +38,7 @@ class IsoCamera {
       low = low.cwiseMin(unshifted(p));
       high = high.cwiseMax(unshifted(p));
     }
-    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kMargin_px * kSupersampling);
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kBorder_px * kSupersampling);
     shift_ = margin - low;
     size_ = (high - low + 2.0 * margin).array().ceil().cast<int>() + kSupersampling;
   }

@@ -8,8 +8,6 @@
 namespace swiftlet::render {
 namespace {
 
-constexpr Colour kUnseen{205, 208, 212};
-constexpr Colour kFree{250, 248, 240};
 constexpr double kFullHeight_m = 1.5;  // a column with this much matter is drawn darkest
 
 }  // namespace
@@ -21,7 +19,7 @@ Picture draw_top(const BlockMap& map, const VoxelBox& whole, const ProjectionOpt
   const Columns columns(map, box);
   for_each_column(box, [&](std::int32_t x, std::int32_t y) {
     const Column column = columns.at(x, y);
-    Colour colour = column.free > 0 ? kFree : kUnseen;
+    Colour colour = column.free > 0 ? kFreeGround : kUnseen;
     if (column.occupied > 0) {
       const double matter = std::min(1.0, column.occupied * map.voxel_m() / kFullHeight_m);
       colour = shaded({120, 150, 190}, 1.0 - 0.85 * matter);

@@ -3,6 +3,7 @@
 
 #include "swiftlet/app/commands/rig_flags.hpp"
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <string_view>
 #include <utility>

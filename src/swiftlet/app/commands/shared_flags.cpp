@@ -3,6 +3,7 @@
 
 #include "swiftlet/app/commands/shared_flags.hpp"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string_view>
 #include <utility>

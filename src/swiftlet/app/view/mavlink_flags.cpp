@@ -3,6 +3,7 @@
 
 #include "swiftlet/app/view/mavlink_flags.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <string_view>

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kOwnOptions =
+constexpr std::string_view kBagOptions =
     "depth_topic, info_topic, pose_topic, body_frame, pose_axes=rep103|t265|optical, depth_unit_m";
 
 struct BagRequest {
@@ -90,7 +90,7 @@ Expected<BagRequest> parse_request(std::string_view rest) {
   }
   for (const auto& [key, value] : address->options) {
     if (!apply(key, value, request))
-      return bad_option("bag", key, value, fmt::format("{}, {}", kRigOptions, kOwnOptions));
+      return bad_option("bag", key, value, fmt::format("{}, {}", kRigOptions, kBagOptions));
   }
   if (auto assigned = assign_files(address->place, request); !assigned)
     return forward_error(std::move(assigned));

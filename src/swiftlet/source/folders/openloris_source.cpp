@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kContent =
+constexpr std::string_view kOpenlorisContent =
     "depth.txt, groundtruth.txt, sensors.yaml, trans_matrix.yaml and the images they speak of";
 constexpr double kBaseline_m = 0.05;  // D435i
 
@@ -91,7 +91,7 @@ class ListedPoses final : public PoseStream {
 template <class List>
 Expected<List> of_this_kind(Expected<List> list) {
   if (!list && list.error().code == ErrorCode::kNotFound)
-    list.error().remedy = fmt::format("the folder should hold {}", kContent);
+    list.error().remedy = fmt::format("the folder should hold {}", kOpenlorisContent);
   return list;
 }
 
@@ -131,7 +131,7 @@ Expected<FrameSourcePtr> open_openloris_source(std::string_view rest) {
   auto request = parse_request(*address);
   if (!request) return forward_error(std::move(request));
   const fs::path folder(address->place);
-  if (auto usable = check_folder(folder, kContent); !usable)
+  if (auto usable = check_folder(folder, kOpenlorisContent); !usable)
     return forward_error(std::move(usable));
 
   const bool is_aligned = request->images == "aligned_depth";  // to the colour camera

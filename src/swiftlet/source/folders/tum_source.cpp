@@ -30,16 +30,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kContent = "depth.txt, groundtruth.txt and the images they list";
+constexpr std::string_view kTumContent = "depth.txt, groundtruth.txt and the images they list";
 // Full scale, 13.1 m, is beyond any Kinect: a clipped value, not a reading.
-constexpr DepthPngFormat kFormat{.unit_m = 1.0F / 5000.0F, .is_full_scale_invalid = true};
-constexpr double kKinectBaseline_m = 0.075;
-constexpr WorldAxes kAxes = WorldAxes::kZUp;  // motion capture
+constexpr DepthPngFormat kTumFormat{.unit_m = 1.0F / 5000.0F, .is_full_scale_invalid = true};
+constexpr double kTumBaseline_m = 0.075;
+constexpr WorldAxes kTumAxes = WorldAxes::kZUp;  // motion capture
 
 // The calibrations of the data set's depth images, which are registered to colour.
-constexpr std::array kCameras{KnownCamera{"TUM freiburg1", 517.3, 516.5, 318.6, 255.3},
-                              KnownCamera{"TUM freiburg2", 520.9, 521.0, 325.1, 249.7},
-                              KnownCamera{"TUM freiburg3", 535.4, 539.2, 320.1, 247.6}};
+constexpr std::array kTumCameras{KnownCamera{"TUM freiburg1", 517.3, 516.5, 318.6, 255.3},
+                                 KnownCamera{"TUM freiburg2", 520.9, 521.0, 325.1, 249.7},
+                                 KnownCamera{"TUM freiburg3", 535.4, 539.2, 320.1, 247.6}};
 
 /// The camera that a name speaks of: freiburg1, 2 or 3, also fr1, 2 or 3, as a word of it.
 std::optional<KnownCamera> camera_named(std::string_view name) {
@@ -52,7 +52,7 @@ std::optional<KnownCamera> camera_named(std::string_view name) {
       const std::size_t digit = at + mark.size();
       const bool is_word = (at == 0 || !is_part_of_word(at - 1)) && !is_part_of_word(digit + 1);
       if (!is_word || digit >= name.size() || name[digit] < '1' || name[digit] > '3') continue;
-      return kCameras[static_cast<std::size_t>(name[digit] - '1')];
+      return kTumCameras[static_cast<std::size_t>(name[digit] - '1')];
     }
   }
   return std::nullopt;
@@ -95,7 +95,7 @@ class TumSource final : public FrameSource {
  public:
   TumSource(SourceInfo info, const FolderOptions& options, TumRecording recording)
       : folder_(options.folder),
-        axes_(options.up.value_or(kAxes)),
+        axes_(options.up.value_or(kTumAxes)),
         images_(std::move(recording.images)),
         poses_(std::move(recording.poses)),
         camera_(std::move(recording.camera)),
@@ -182,19 +182,19 @@ Expected<TumRecording> read_recording(const FolderOptions& options, FolderCamera
 Expected<FrameSourcePtr> open_tum_source(std::string_view rest) {
   auto options = parse_folder_options(rest, "tum", true);
   if (!options) return forward_error(std::move(options));
-  if (auto usable = check_folder(options->folder, kContent); !usable)
+  if (auto usable = check_folder(options->folder, kTumContent); !usable)
     return forward_error(std::move(usable));
-  DepthPngFormat format = kFormat;
-  format.unit_m = options->depth_unit_m.value_or(kFormat.unit_m);
+  DepthPngFormat format = kTumFormat;
+  format.unit_m = options->depth_unit_m.value_or(kTumFormat.unit_m);
   auto recording = read_recording(
       *options, {.folder = options->folder, .format = format, .intrinsics = options->intrinsics});
   if (!recording) return forward_error(std::move(recording));
   SourceInfo info{.uri = "tum:" + std::string(rest),
-                  .native_up_axis = std::string(up_axis(options->up.value_or(kAxes))),
+                  .native_up_axis = std::string(up_axis(options->up.value_or(kTumAxes))),
                   .frame_count = recording->images.size(),
-                  .baseline_m = kKinectBaseline_m,
+                  .baseline_m = kTumBaseline_m,
                   .intrinsics = recording->camera.note()};
-  if (!options->depth_unit_m) info.assumed_depth_unit_m = kFormat.unit_m;
+  if (!options->depth_unit_m) info.assumed_depth_unit_m = kTumFormat.unit_m;
   return std::make_unique<TumSource>(std::move(info), *options, std::move(*recording));
 }
 

@@ -23,7 +23,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::string_view kOwnOptions =
+constexpr std::string_view kRealsenseOptions =
     "profile=WIDTHxHEIGHT@FPS, laser_mw, preset, "
     "poses=udp:PORT|udp:ADDRESS:PORT|unix:PATH|mavlink, "
     "pose_key=FILE, pose_axes=rep103|t265|optical, wait_s";
@@ -121,7 +121,8 @@ Expected<RealsenseRequest> parse_realsense(std::string_view rest) {
   request.rig = *rig_file ? **rig_file : intel_t265_d435_rig();
   for (const auto& [key, value] : address->options) {
     if (!apply(key, value, request))
-      return bad_option("realsense", key, value, fmt::format("{}, {}", kOwnOptions, kRigOptions));
+      return bad_option("realsense", key, value,
+                        fmt::format("{}, {}", kRealsenseOptions, kRigOptions));
   }
   if (!request.pose_key.empty() && !request.poses) {
     return fail(ErrorCode::kUsage, "realsense", "a key, but no poses from outside",
