@@ -141,9 +141,19 @@ TEST_F(BagChoice, names_the_frames_there_are_for_one_there_is_not) {
               AllOf(HasSubstr("no frame base_lnik"), HasSubstr("/tf"),
                     HasSubstr("did you mean base_link?"), HasSubstr("camera_link")));
   EXPECT_THAT(read_all(place + "?body_frame=nobody").error, HasSubstr("no frame nobody"));
-  EXPECT_THAT(read_all(place + "?pose_topic=/tf").error,
-              AllOf(HasSubstr("--body-frame"), HasSubstr("base_link, camera_link")));
   EXPECT_THAT(read_all(place + "?pose_topic=/odon").error, HasSubstr("did you mean /odom?"));
+}
+
+TEST_F(BagChoice, asks_which_frame_of_tf_is_the_vehicle_where_a_rig_file_tells_the_mount) {
+  test::write_file(folder_ / "rig.yaml", "cameras:\n  - { at_m: [0, 0, 0.5] }\n");
+  mount();
+  for (int t = 0; t <= 1000; t += 50) tf(t, t % 100 == 0 ? "base_link" : "camera_link");
+  info("/depth", test::info_message(24, 16, 20.0));
+  image("/depth", 0, test::flat(2000));
+  const std::string rig = "?rig=" + (folder_ / "rig.yaml").string();
+  EXPECT_THAT(read_all(address(rig)).error,
+              AllOf(HasSubstr("--body-frame"), HasSubstr("base_link, camera_link")));
+  EXPECT_EQ(read_all(address(rig + "&body_frame=base_link")).error, "");
 }
 
 TEST_F(BagChoice, takes_compressed_depth_where_there_are_no_plain_images) {

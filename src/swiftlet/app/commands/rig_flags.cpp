@@ -32,8 +32,10 @@ constexpr std::array kFlags{
             "CameraInfo; default: camera_info beside the images", "TOPIC"},
     RigFlag{"pose_topic", &RigFlags::pose_topic, "Odometry, PoseStamped, TransformStamped or tf",
             "TOPIC"},
-    RigFlag{"body_frame", &RigFlags::body_frame, "which frame of a tf topic is the vehicle",
-            "FRAME"},
+    RigFlag{"body_frame", &RigFlags::body_frame,
+            "frame of tf that is the vehicle; default: what carries the camera", "FRAME"},
+    RigFlag{"world_frame", &RigFlags::world_frame,
+            "frame of tf that is the world; default: its root", "FRAME"},
 };
 
 std::string spelled(std::string_view option) {

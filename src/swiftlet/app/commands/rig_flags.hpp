@@ -10,7 +10,7 @@ namespace swiftlet::app {
 
 /// Flags that stand for options of the source's address; empty where not given.
 struct RigFlags {
-  std::string rig, pairing, on_jump, depth_topic, info_topic, pose_topic, body_frame;
+  std::string rig, pairing, on_jump, depth_topic, info_topic, pose_topic, body_frame, world_frame;
 
   /// "bag:a.bag" with --pairing nearest is "bag:a.bag?pairing=nearest", as the user could write it.
   [[nodiscard]] std::string added_to(std::string address) const;

@@ -57,7 +57,7 @@ void add_silent(const RecordingReader& reader, BagSummary& summary) {
 /// What would be mapped without another option, or why nothing would be.
 void add_choices(BagSummary& summary) {
   const auto depth = open_bag_depth(summary.path, {});
-  const auto poses = open_bag_poses(summary.path, {});
+  const auto poses = open_bag_poses(summary.path, {.camera_frame = depth ? depth->frame_id : ""});
   summary.choices.push_back(depth ? depth->told : "no depth: " + depth.error().what);
   summary.choices.push_back(poses ? poses->told : "no poses: " + poses.error().what);
 }

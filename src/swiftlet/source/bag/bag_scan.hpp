@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -27,6 +28,10 @@ template <class Visit>
     if (visit(**message)) return true;
   }
 }
+
+/// How far the beginning is looked through for transforms: static ones are recorded when the
+/// recorder starts; an image has about a megabyte.
+inline constexpr std::uint64_t kBytesWithStatics = 200U << 20U;
 
 /// The error for a bag without what was asked for; names what there is instead, and what is nearest
 /// to what the user has typed.
@@ -59,5 +64,8 @@ template <class Visit>
                                                 const BagTopics& topics);
 [[nodiscard]] Expected<BagPoses> open_ros_poses(const std::filesystem::path& path,
                                                 const BagTopics& topics);
+/// Poses through the whole tf tree, interpolated. Errors: those of find_tf_chain().
+[[nodiscard]] Expected<BagPoses> open_tf_poses(const std::filesystem::path& path,
+                                               const BagTopics& topics);
 
 }  // namespace swiftlet

@@ -24,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kBagOptions =
-    "depth_topic, info_topic, pose_topic, body_frame, pose_axes=rep103|t265|optical, depth_unit_m";
+    "depth_topic, info_topic, pose_topic, body_frame, world_frame, pose_axes=rep103|t265|optical, "
+    "depth_unit_m";
 
 struct BagRequest {
   std::vector<std::string> depth_files;
@@ -40,6 +41,7 @@ bool apply(std::string_view key, const std::string& value, BagRequest& request) 
   if (key == "info_topic") return !(request.topics.info = value).empty();
   if (key == "pose_topic") return !(request.topics.pose = value).empty();
   if (key == "body_frame") return !(request.topics.body_frame = value).empty();
+  if (key == "world_frame") return !(request.topics.world_frame = value).empty();
   if (key == "pose_axes") {
     const auto axes = body_axes_from(value);
     request.topics.pose_axes = axes.value_or(BodyAxes::kRep103);
@@ -98,15 +100,15 @@ Expected<BagRequest> parse_request(std::string_view rest) {
 }
 
 /// A ROS bag may tell its own mount; the SDK's recordings never do, as they are one device each.
-Status find_mount(const BagDepth& depth, const BagPoses& poses, BagRequest& request) {
+Status find_mount(const std::string& camera_frame, const BagPoses& poses, BagRequest& request) {
   if (request.has_rig_file || poses.is_t265) return Done{};
   const std::string& file = request.depth_files.front();
-  if (depth.frame_id.empty() || poses.child_frame.empty()) {
+  if (camera_frame.empty() || poses.child_frame.empty()) {
     return fail(ErrorCode::kNotFound, file,
                 "nobody tells where the camera sits on what has the poses",
                 "describe the mount in a rig file and give it with --rig (docs/rig.md)");
   }
-  auto mount = mount_from_tf(file, poses.child_frame, depth.frame_id);
+  auto mount = mount_from_tf(file, poses.child_frame, camera_frame);
   if (!mount) return forward_error(std::move(mount));
   request.rig.rig.cameras.front().T_body_camera = *mount;
   return Done{};
@@ -119,11 +121,9 @@ Expected<FrameSourcePtr> open_bag_source(std::string_view rest) {
   if (!request) return forward_error(std::move(request));
   RigOptions& rig = request->rig.rig;
 
-  auto poses = open_bag_poses(request->pose_file, request->topics);
-  if (!poses) return forward_error(std::move(poses));
   std::vector<DepthStreamPtr> streams;
-  SourceInfo info{"bag:" + std::string(rest), poses->is_t265 ? "+y" : "+z", std::nullopt,
-                  std::nullopt};
+  SourceInfo info{"bag:" + std::string(rest), "+z", std::nullopt, std::nullopt};
+  std::string camera_frame;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     BagTopics topics = request->topics;
     if (!rig.cameras[i].stream.empty()) topics.depth = rig.cameras[i].stream;
@@ -132,14 +132,20 @@ Expected<FrameSourcePtr> open_bag_source(std::string_view rest) {
     if (i == 0) {
       info.baseline_m = depth->baseline_m;
       info.intrinsics = {IntrinsicsOrigin::kCameraInfo, "of " + depth->topic};
-      if (auto mounted = find_mount(*depth, *poses, *request); !mounted)
-        return forward_error(std::move(mounted));
+      camera_frame = depth->frame_id;
     }
     if (rig.cameras.size() > 1 && rig.cameras[i].baseline_m == 0.0)
       rig.cameras[i].baseline_m = depth->baseline_m.value_or(0.0);
     info.choices.push_back(depth->told);
     streams.push_back(std::move(depth->stream));
   }
+  // A rig file tells the mount on its own vehicle, which need not be what moves in tf.
+  if (!request->has_rig_file) request->topics.camera_frame = camera_frame;
+  auto poses = open_bag_poses(request->pose_file, request->topics);
+  if (!poses) return forward_error(std::move(poses));
+  if (auto mounted = find_mount(camera_frame, *poses, *request); !mounted)
+    return forward_error(std::move(mounted));
+  if (poses->is_t265) info.native_up_axis = "+y";
   info.choices.push_back(poses->told);
   return std::make_unique<JoinedSource>(std::move(info), std::move(streams),
                                         std::move(poses->stream), rig);

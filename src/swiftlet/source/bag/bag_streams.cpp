@@ -20,13 +20,11 @@
 #include "swiftlet/base/nearest_name.hpp"
 #include "swiftlet/source/bag/bag_scan.hpp"
 #include "swiftlet/source/bag/depth_decoder.hpp"
+#include "swiftlet/source/bag/tf_chain.hpp"
 #include "swiftlet/source/rig/frame_tree.hpp"
 
 namespace swiftlet {
 namespace {
-
-// Static transforms are recorded when the recorder starts; an image has about a megabyte.
-constexpr std::uint64_t kBytesWithStatics = 200U << 20U;
 
 /// Whether a file is text, by its first bytes: neither zeros nor a recording.
 Expected<bool> is_text(const std::filesystem::path& path) {
@@ -101,7 +99,7 @@ Expected<Transform<Body, Camera>> mount_from_tf(const std::filesystem::path& pat
   FrameTree tree;
   auto found = scan_bag(**reader, [&](const BagMessage& message) {
     const std::string& topic = message.connection->topic;
-    if (topic != "/tf_static") return (*reader)->bytes_read() > kBytesWithStatics;
+    if (!is_static_tf(topic)) return (*reader)->bytes_read() > kBytesWithStatics;
     const auto poses = ros::parse_poses(message.connection->type, message.serialized());
     if (!poses) return false;
     for (const ros::StampedPose& pose : *poses) {

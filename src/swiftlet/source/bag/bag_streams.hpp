@@ -19,7 +19,9 @@ struct BagTopics {
   std::string depth{};       ///< topic of the depth images
   std::string info{};        ///< topic of their sensor_msgs/CameraInfo; default: camera_info beside
   std::string pose{};        ///< topic of the poses
-  std::string body_frame{};  ///< the child frame, where a tf topic holds many
+  std::string body_frame{};  ///< the vehicle, where a tf topic holds many frames
+  std::string world_frame{};   ///< what its poses shall be in; default: the root of tf
+  std::string camera_frame{};  ///< of the depth images, which tells the vehicle where nobody does
   BodyAxes pose_axes = BodyAxes::kRep103;  ///< of poses of ROS bags
   double depth_unit_m = 0.001;             ///< of 16-bit images of ROS bags
 };
@@ -52,9 +54,9 @@ struct BagPoses {
 [[nodiscard]] Expected<BagPoses> open_bag_poses(const std::filesystem::path& path,
                                                 const BagTopics& topics);
 
-/// The mount that the /tf_static messages of a ROS bag tell: `camera_frame` in `body_frame`.
-/// Errors: those of RecordingReader; kNotFound, naming the frames there are, if there is no chain
-/// between the two near the beginning of the file.
+/// The mount that the /tf_static messages of a ROS bag, or those of a namespace, tell:
+/// `camera_frame` in `body_frame`. Errors: those of RecordingReader; kNotFound, naming the frames
+/// there are, if there is no chain between the two near the beginning of the file.
 [[nodiscard]] Expected<Transform<Body, Camera>> mount_from_tf(const std::filesystem::path& path,
                                                               const std::string& body_frame,
                                                               const std::string& camera_frame);

@@ -2,7 +2,6 @@
 // Copyright the Swiftlet authors
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -12,14 +11,13 @@
 
 #include "swiftlet/bag/ros_messages.hpp"
 #include "swiftlet/source/bag/bag_scan.hpp"
+#include "swiftlet/source/bag/tf_chain.hpp"
 #include "swiftlet/source/rig/mounts.hpp"
 
 // The poses of recordings of ROS.
 
 namespace swiftlet {
 namespace {
-
-bool is_tf(std::string_view type) { return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage"; }
 
 /// Whether it is the pose of a frame; a type that does not tell whose pose it is has but one.
 bool is_meant(const ros::StampedPose& pose, std::string_view frame) {
@@ -60,7 +58,8 @@ class RosPoses final : public PoseStream {
 
 struct FoundPoses {
   std::string topic, type, child;
-  bool is_complete = false;        // nothing more has to be found
+  bool is_complete = false;  // nothing more has to be found
+  bool has_tf = false;
   std::set<std::string> frames{};  // that it has, as far as it was read
 };
 
@@ -74,7 +73,6 @@ bool note_poses(const BagConnection& connection, const std::vector<ros::StampedP
   for (const ros::StampedPose& pose : poses) {
     if (found.frames.size() < kMostFrames) found.frames.insert(pose.child);
     if (!topics.body_frame.empty() && !is_meant(pose, topics.body_frame)) continue;
-    if (topics.body_frame.empty() && is_tf(connection.type)) continue;
     found.child = topics.body_frame.empty() ? pose.child : topics.body_frame;
     found.is_complete = true;
   }
@@ -87,28 +85,32 @@ Expected<FoundPoses> find_poses(RecordingReader& reader, const BagTopics& topics
     const BagConnection& connection = *message.connection;
     const bool is_pose =
         std::ranges::find(ros::kPoseTypes, connection.type) != ros::kPoseTypes.end();
-    // A tf topic holds many frames: nobody but the user knows which is the vehicle.
+    const bool is_tf = is_tf_type(connection.type);
+    found.has_tf |= is_tf;
     const bool is_asked =
-        topics.pose.empty() ? !is_tf(connection.type) : is_same_name(connection.topic, topics.pose);
+        topics.pose.empty() ? !is_tf : is_same_name(connection.topic, topics.pose);
     if (!is_pose || !is_asked) return false;
+    if (is_tf) {
+      found.type = connection.type;
+      return true;
+    }
     const auto poses = ros::parse_poses(connection.type, message.serialized());
     return poses && note_poses(connection, *poses, topics, found);
   });
   if (!is_found) return forward_error(std::move(is_found));
-  if (found.is_complete) return found;
+  if (found.is_complete || is_tf_type(found.type)) return found;
+  if (found.topic.empty() && found.has_tf && topics.pose.empty()) {
+    found.type = "tf2_msgs/TFMessage";
+    return found;
+  }
   if (found.topic.empty()) {
     return no_such_topic(reader,
                          topics.pose.empty() ? "it holds no poses (Odometry, PoseStamped, "
-                                               "PoseWithCovarianceStamped, TransformStamped)"
+                                               "PoseWithCovarianceStamped, TransformStamped, tf)"
                                              : "it has no poses on " + topics.pose,
                          "choose a topic with --pose-topic", topics.pose);
   }
   const std::vector<std::string> frames(found.frames.begin(), found.frames.end());
-  if (topics.body_frame.empty()) {
-    return fail(
-        ErrorCode::kUsage, found.topic, "a tf topic holds the poses of many frames",
-        fmt::format("say which is the vehicle with --body-frame: {}", fmt::join(frames, ", ")));
-  }
   return fail(ErrorCode::kNotFound, fmt::format("{} ({})", reader.name(), found.topic),
               fmt::format("there is no frame {}", topics.body_frame),
               names_instead(topics.body_frame, frames));
@@ -118,7 +120,7 @@ std::string told(const FoundPoses& found, const RecordingReader& reader) {
   std::string others;
   for (const auto& [id, connection] : reader.connections()) {
     const bool is_other =
-        connection.topic != found.topic && !is_tf(connection.type) &&
+        connection.topic != found.topic && !is_tf_type(connection.type) &&
         std::ranges::find(ros::kPoseTypes, connection.type) != ros::kPoseTypes.end();
     if (is_other) others += (others.empty() ? "; not from " : ", ") + connection.topic;
   }
@@ -133,6 +135,7 @@ Expected<BagPoses> open_ros_poses(const std::filesystem::path& path, const BagTo
   if (!first) return forward_error(std::move(first));
   auto found = find_poses(**first, topics);
   if (!found) return forward_error(std::move(found));
+  if (is_tf_type(found->type)) return open_tf_poses(path, topics);
   auto again = open_recording(path);
   if (!again) return forward_error(std::move(again));
   return BagPoses{std::make_unique<RosPoses>(std::move(*again), found->topic, topics.body_frame,
