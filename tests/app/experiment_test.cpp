@@ -51,6 +51,12 @@ TEST_F(Experiment, the_noise_of_the_simulated_camera_is_that_of_the_theory) {
 }
 #endif
 
+TEST_F(Experiment, may_be_called_as_a_command_is) {
+  const Ended ended = swiftlet({"experiment", "fly", "--flights", "0", "-o", "out"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("--flights")) << "not that fly lacks its scene";
+}
+
 TEST_F(Experiment, an_unknown_one_is_a_wrong_usage_that_names_those_there_are) {
   const Ended ended = swiftlet({"experiment", "teleport", "-o", "out"});
   EXPECT_EQ(ended.exit_code, 2);

@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "swiftlet/fly/flight_task.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -81,6 +83,43 @@ TEST(Fly, gives_up_on_a_goal_that_nothing_leads_to) {
   EXPECT_GT(report->least_clearance_m, 0.05);
 }
 
+/// A box that stands beside the room and from 6 s to 8 s flies through the place of the start.
+sim::Scene room_with_a_rammer() {
+  sim::Scene scene = divided_room();
+  const auto path = sim::Flight::create({{0.0, {1.2, -3.0, 1.2}, Eigen::Quaterniond::Identity()},
+                                         {6.0, {1.2, -3.0, 1.2}, Eigen::Quaterniond::Identity()},
+                                         {8.0, {1.2, 4.0, 1.2}, Eigen::Quaterniond::Identity()}});
+  scene.movers.push_back({"box", {wall({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})}, *path});
+  return scene;
+}
+
+TEST(Fly, tells_a_collision_whatever_else_ends_the_flight) {
+  FlyOptions options = options_to(Vector(1.3, 1.2, 1.2));
+  const auto rammed = fly(room_with_a_rammer(), kStart, options);
+  ASSERT_TRUE(rammed) << rammed.error().text();
+  ASSERT_EQ(rammed->end, FlightEnd::kCollided) << name_of(rammed->end);
+  EXPECT_LE(rammed->least_clearance_m, 0.0);
+  options.time_limit_s = rammed->time_s - 0.005;  // over in the same tick
+  const auto late = fly(room_with_a_rammer(), kStart, options);
+  ASSERT_TRUE(late) << late.error().text();
+  EXPECT_EQ(late->end, FlightEnd::kCollided) << name_of(late->end);
+}
+
+TEST(Fly, refuses_a_goal_where_it_may_not_be) {
+  FlyOptions options = options_to(Vector(5.8, 1.2, 1.2));
+  options.bounds = SpaceBox{{0, 0, 0}, {3, 5, 2}};
+  const auto outside = fly(divided_room(), kStart, options);
+  ASSERT_FALSE(outside);
+  EXPECT_THAT(outside.error().text(), testing::HasSubstr("outside where the vehicle may be"));
+  EXPECT_FALSE(fly(divided_room(), kStart, options_to(Vector(1e10, 0, 0))));
+}
+
+TEST(FlightTask, refuses_what_an_address_says_and_a_flight_does_not_heed) {
+  EXPECT_TRUE(read_flight_task("random:forest?seed=7"));
+  for (const std::string ignored : {"fault=jump", "rate=30", "cameras=4", "noise=off"})
+    EXPECT_FALSE(read_flight_task("sim:apartment?" + ignored)) << ignored;
+}
+
 TEST(Fly, says_what_it_cannot_begin_with) {
   const auto refused = [](const FlightStart& start, const FlyOptions& options) {
     const auto report = fly(divided_room(), start, options);
@@ -88,6 +127,8 @@ TEST(Fly, says_what_it_cannot_begin_with) {
   };
   FlyOptions options = options_to(Vector(5.8, 1.2, 1.2));
   EXPECT_THAT(refused({{3.5, 1.0, 1.0}, 0.0}, options), testing::HasSubstr("inside something"));
+  options.max_speed_mps = 20.0;
+  EXPECT_THAT(refused(kStart, options), testing::HasSubstr("8 m/s at most"));
   options.max_speed_mps = 0.0;
   EXPECT_THAT(refused(kStart, options), testing::HasSubstr("cannot be used"));
   options = options_to(Vector(std::nan(""), 0.0, 0.0));

@@ -84,6 +84,17 @@ TEST(PlanPath, stays_within_its_bounds) {
   for (const Vector& p : path->points) EXPECT_LE(std::abs(p.z()), 0.1);
 }
 
+TEST(PlanPath, is_not_pushed_out_of_its_bounds_by_comfort) {
+  const auto map = two_rooms(0.9).snapshot();
+  PlanOptions options;
+  options.comfort_m = 0.3;
+  options.bounds = SpaceBox{{-3, -2, -0.75}, {3, 2, -0.55}};  // the floor is near
+  const Vector down(0, 0, -0.65);
+  const auto path = plan_path(map, *BodyShape::sphere(0.2), kHere + down, kThere + down, options);
+  ASSERT_TRUE(path) << path.error().text();
+  for (const Vector& p : path->points) EXPECT_LE(p.z(), -0.55 + 1e-9);
+}
+
 TEST(PlanPath, passes_unknown_space_if_it_is_told_to_even_out_of_the_window) {
   const auto map = two_rooms(0.9).snapshot();
   PlanOptions options;

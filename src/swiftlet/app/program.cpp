@@ -83,6 +83,7 @@ int run_program(int argc, char** argv) {
       "  swiftlet render flat.swl -o flat.png       look at the map\n"
       "  swiftlet list                              everything there is to choose from\n"
       "'swiftlet COMMAND --help' tells more.");
+  program.require_subcommand(0, 1);  // of "experiment fly" the second word is no command
   const VisibleStdout visible_output;
   Action chosen;
   for (const auto& command : commands()) {

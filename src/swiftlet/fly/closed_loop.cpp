@@ -8,17 +8,16 @@
 
 #include "swiftlet/fly/closed_loop_private.hpp"
 #include "swiftlet/fly/explored_share.hpp"
-#include "swiftlet/fly/thread_time_private.hpp"
 
 namespace swiftlet {
 namespace {
 
 constexpr Nanoseconds kTick{10'000'000};
-constexpr Nanoseconds kWarmUp{1'000'000'000};  // the tracker is not sure of itself at first
 constexpr Nanoseconds kTrackStep{100'000'000};
 constexpr double kTurnRate_radps = 1.2;
 constexpr double kJudged_m = 2.0;  // clearances above this are this
 constexpr double kAtGoal_m = 0.3;
+constexpr double kTrulyThere_m = 0.5;  // kAtGoal_m, what a follower is off, and drift
 
 double wrapped(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
 
@@ -40,9 +39,9 @@ ClosedLoop::ClosedLoop(FlightWorld world, FlownMapPtr map, PlannerView view, con
       map_(std::move(map)),
       view_(std::move(view)),
       body_(body),
+      camera_(camera),
       policy_(planning_policy(options)),
-      choice_({options.goal_m, options.bounds, kAtGoal_m, options.max_speed_mps}, camera, body,
-              policy_),
+      choice_({options.goal_m, options.bounds, kAtGoal_m}, camera, body, policy_),
       follower_({options.max_speed_mps, options.max_acceleration_mps2}, start.position_m),
       flown_policy_(policy_),
       yaw_rad_(start.yaw_rad) {
@@ -146,10 +145,11 @@ void ClosedLoop::check_path() {
   policy.margin_m *= 0.3;
   const auto points = follower_.piece(follower_.path_m(), follower_.end_m());
   const auto path = SweepPath::along(points);
-  if (!path) return;
-  const auto answer = sweep(view_.map(), body_, *path, policy);
-  if (!answer || answer->state == SweepState::kClear) return;
-  follower_.stop_at(follower_.path_m() + std::max(0.0, answer->clear_m - 0.05));
+  const auto answer = path ? sweep(view_.map(), body_, *path, policy)
+                           : Expected<SweepAnswer>(tl::make_unexpected(path.error()));
+  if (answer && answer->state == SweepState::kClear) return;
+  const double clear_m = answer ? answer->clear_m : 0.0;  // what cannot be asked is not clear
+  follower_.stop_at(follower_.path_m() + std::max(0.0, clear_m - 0.05));
   ++cuts_;
   ++report_.blocked;
   is_blocked_ = true;
@@ -170,6 +170,8 @@ void ClosedLoop::finish_report() {
   }
   const Eigen::Vector3d goal = options_.goal_m.value_or(start_.position_m);
   report_.goal_distance_m = (world_.vehicle.state().position_m - goal).norm();
+  if (report_.is_success() && report_.goal_distance_m > kTrulyThere_m)
+    report_.end = FlightEnd::kMissed;
   for (const std::size_t lost : world_.rig.tally().lost) report_.frames_refused += lost;
   if (frames_seen_ > 0) report_.frame_ms = frame_ms_sum_ / static_cast<double>(frames_seen_);
   if (report_.plans > 0) report_.plan_ms = plan_ms_sum_ / static_cast<double>(report_.plans);

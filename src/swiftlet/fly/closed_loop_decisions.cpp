@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "swiftlet/fly/closed_loop_private.hpp"
-#include "swiftlet/fly/thread_time_private.hpp"
 #include "swiftlet/plan/motion_check.hpp"
 #include "swiftlet/plan/path_smoothing.hpp"
 #include "swiftlet/plan/plan_path.hpp"
@@ -78,20 +77,21 @@ bool ClosedLoop::has_looked_in_vain(const Eigen::Vector3d& p) {
   const auto times = std::ranges::count_if(looked_at_, [&](const Eigen::Vector3d& before) {
     return (before - p).norm() < kSamePlace_m;
   });
-  return times >= kOften || frontier_near(p) >= TargetChoice::kFewVoxels;
+  return times >= kOften || frontier_near(p).size() >= TargetChoice::kFewVoxels;
 }
 
 /// Whether the camera has been turned to a place for so long that what is a frontier there stays
 /// one, as on the floor where rays end on the border of two voxels. Counts this look, too.
 bool ClosedLoop::has_been_in_view(const Eigen::Vector3d& p) {
-  constexpr double kSamePlace_m = 0.5, kNear_m = 3.0, kHalfWidth_rad = 0.6, kHalfHeight_rad = 0.45;
+  constexpr double kSamePlace_m = 0.5, kNear_m = 3.0;
   constexpr std::ptrdiff_t kLong = 6;  // thoughts: two seconds
-  const Eigen::Vector3d way = p - follower_.place_m();
-  const double side_rad =
-      std::remainder(std::atan2(way.y(), way.x()) - yaw_rad_, 2 * std::numbers::pi);
-  const double up_rad = std::atan2(way.z(), way.head<2>().norm());
-  if (way.norm() > kNear_m || std::abs(side_rad) > kHalfWidth_rad ||
-      std::abs(up_rad) > kHalfHeight_rad)
+  const Eigen::AngleAxisd yaw(yaw_rad_, Eigen::Vector3d::UnitZ());
+  const auto T_world_body =
+      Transform<World, Body>::trusted(Eigen::Quaterniond(yaw), follower_.place_m());
+  const std::vector<VoxelIndex> voxels = frontier_near(p);
+  if ((p - follower_.place_m()).norm() > kNear_m ||
+      voxels_in_sight(view_.map(), voxels, T_world_body * camera_.T_body_camera, camera_,
+                      policy_.thresholds) == 0)
     return false;
   seen_.push_back(p);
   return std::ranges::count_if(seen_, [&](const Eigen::Vector3d& before) {
@@ -99,17 +99,21 @@ bool ClosedLoop::has_been_in_view(const Eigen::Vector3d& p) {
          }) >= kLong;
 }
 
-std::size_t ClosedLoop::frontier_near(const Eigen::Vector3d& p) const {
+std::vector<VoxelIndex> ClosedLoop::frontier_near(const Eigen::Vector3d& p) const {
   constexpr double kNear_m = 0.5;
-  std::size_t count = 0;
+  std::vector<VoxelIndex> voxels;
   view_.frontier().for_each_voxel([&](const VoxelIndex& v) {
-    count += (centre_of(v, view_.map().voxel_m()) - p).norm() < kNear_m ? 1 : 0;
+    if ((centre_of(v, view_.map().voxel_m()) - p).norm() < kNear_m) voxels.push_back(v);
   });
-  return count;
+  return voxels;
 }
 
-bool ClosedLoop::is_path_good_for(const FlightTarget& target) const {
+bool ClosedLoop::is_path_good_for(const FlightTarget& target, const Eigen::Vector3d& from) const {
   if (!target_ || is_blocked_ || target.is_goal != target_->is_goal) return false;
+  if (flown_policy_.margin_m < policy_.margin_m) {  // it began in a tight place: is there room now?
+    const auto policy = policy_from(from);
+    if (policy && policy->margin_m > flown_policy_.margin_m) return false;
+  }
   if (target.is_goal) return (target.p_world - target_->p_world).norm() < 0.05;
   const bool is_same = (target.looks_at_m - target_->looks_at_m).norm() < kSameTarget_m;
   return is_same && follower_.left_m() > 0.3;
@@ -124,6 +128,7 @@ double ClosedLoop::locked_m() const {
 
 void ClosedLoop::think() {
   if (!view_.has_map() || pending_) return;
+  const ThreadTime time;
   next_thought_ = now_ + kThink;
   // From where the vehicle can still stop when the answer comes.
   const double commit_m = std::min(follower_.end_m(), locked_m() + 2.0 * follower_.stopping_m());
@@ -143,7 +148,7 @@ void ClosedLoop::think() {
     next_thought_ = now_;
     return;
   }
-  if (!is_path_good_for(*target)) plan_to(*target, commit_m);
+  if (!is_path_good_for(*target, from)) plan_to(*target, commit_m, time);
 }
 
 void ClosedLoop::nothing_left() {
@@ -170,8 +175,8 @@ std::optional<SweepPolicy> ClosedLoop::policy_from(const Eigen::Vector3d& p) con
   return std::nullopt;
 }
 
-void ClosedLoop::plan_to(const FlightTarget& target, double commit_m) {
-  const ThreadTime time;
+/// `time`: since it began to think where to.
+void ClosedLoop::plan_to(const FlightTarget& target, double commit_m, const ThreadTime& time) {
   ++report_.plans;
   const Eigen::Vector3d from = follower_.place_at(commit_m);
   const auto policy = policy_from(from);
@@ -193,7 +198,7 @@ void ClosedLoop::plan_to(const FlightTarget& target, double commit_m) {
     const MotionCheck check(view_.map(), view_.field(), body_, *policy);
     pending_ = Pending{now_ + options_.plan_latency,
                        target,
-                       smoothed(check, points, options_.comfort_m),
+                       smoothed(check, points, options_.comfort_m, how.bounds),
                        lock_m,
                        *policy,
                        cuts_};

@@ -10,6 +10,7 @@
 #include "swiftlet/fly/path_follower.hpp"
 #include "swiftlet/fly/planner_view.hpp"
 #include "swiftlet/fly/target_choice.hpp"
+#include "swiftlet/fly/thread_time_private.hpp"
 #include "swiftlet/plan/planned_path.hpp"
 #include "swiftlet/plan/reachable_space.hpp"
 #include "swiftlet/sim/vehicle/true_clearance.hpp"
@@ -51,23 +52,25 @@ class ClosedLoop {
   void decide();
   void think();
   void nothing_left();
-  void plan_to(const FlightTarget& target, double commit_m);
+  void plan_to(const FlightTarget& target, double commit_m, const ThreadTime& time);
   void plan_failed(const FlightTarget& target);
   void take_pending();
   void arrive();
   void turn();
   void steer();
   void judge();
-  [[nodiscard]] bool is_path_good_for(const FlightTarget& target) const;
+  [[nodiscard]] bool is_path_good_for(const FlightTarget& target,
+                                      const Eigen::Vector3d& from) const;
   [[nodiscard]] std::optional<SweepPolicy> policy_from(const Eigen::Vector3d& p) const;
   [[nodiscard]] double wanted_yaw() const;
   [[nodiscard]] double locked_m() const;
   [[nodiscard]] bool has_looked_in_vain(const Eigen::Vector3d& p);
   [[nodiscard]] bool has_been_in_view(const Eigen::Vector3d& p);
-  [[nodiscard]] std::size_t frontier_near(const Eigen::Vector3d& p) const;
+  [[nodiscard]] std::vector<VoxelIndex> frontier_near(const Eigen::Vector3d& p) const;
   void clear_start();
   void finish_report();
-  void end(FlightEnd how) { ended_ = how; }
+  /// What ended it first stays: a collision on the last metre is one.
+  void end(FlightEnd how) { ended_ = ended_.value_or(how); }
 
   FlyOptions options_;
   FlightStart start_;
@@ -75,6 +78,7 @@ class ClosedLoop {
   FlownMapPtr map_;
   PlannerView view_;
   BodyShape body_;
+  ViewCamera camera_;
   SweepPolicy policy_;  // of planning
   TargetChoice choice_;
   ReachableSpace space_;

@@ -40,7 +40,7 @@ double explored_share(const sim::TrueClearance& truth, const RollingMap& map,
       if (met.insert(next).second) waiting.push_back(next);
     }
   }
-  return static_cast<double>(known) / static_cast<double>(reached);
+  return reached > 0 ? static_cast<double>(known) / static_cast<double>(reached) : 0.0;
 }
 
 }  // namespace swiftlet

@@ -21,9 +21,10 @@ enum class FlightEnd : std::uint8_t {
   kStuck,      ///< there was nowhere left to go, short of the goal or of home
   kOutOfTime,  ///< the time limit
   kStopped,    ///< by the caller
+  kMissed,     ///< it took itself to be there, and truly was more than half a metre off
 };
-inline constexpr std::array<std::string_view, 6> kFlightEndNames{
-    "arrived", "explored", "collided", "stuck", "out_of_time", "stopped"};
+inline constexpr std::array<std::string_view, 7> kFlightEndNames{
+    "arrived", "explored", "collided", "stuck", "out_of_time", "stopped", "missed"};
 [[nodiscard]] constexpr std::string_view name_of(FlightEnd end) {
   return kFlightEndNames[static_cast<std::size_t>(end)];
 }
@@ -38,8 +39,9 @@ struct FlightReport {
   double least_clearance_m = 0.0;  ///< from the body to the true scene, at least 100 times a second
   double goal_distance_m = 0.0;    ///< at the end, from the goal or from home
   double known_m3 = 0.0;           ///< free and occupied voxels of the map, what left it included
-  double known_share = 0.0;        ///< of the space that the body could truly reach; if exploring
-  double waiting_share = 0.0;      ///< of the time: standing still without a path to fly
+  /// Of the space in the last window that the body could truly reach; if exploring.
+  double known_share = 0.0;
+  double waiting_share = 0.0;  ///< of the time: standing still without a path to fly
   std::size_t plans = 0;
   std::size_t plans_failed = 0;
   std::size_t blocked = 0;  ///< times a new frame blocked the path being flown

@@ -21,7 +21,7 @@ struct FlightTask {
 };
 
 /// Reads an address: `sim:apartment`, or without `sim:`, as in `random:forest?seed=7`. Errors:
-/// those of read_sim_flight().
+/// those of read_sim_flight(); kUsage for options that a flight does not heed.
 [[nodiscard]] Expected<FlightTask> read_flight_task(std::string_view address);
 
 }  // namespace swiftlet

@@ -26,17 +26,35 @@ ViewCamera camera_of(const sim::Scene& scene, const PinholeIntrinsics& intrinsic
   return camera;
 }
 
+bool is_in(const SpaceBox& box, const Eigen::Vector3d& p) {
+  return (p.array() >= box.low.array()).all() && (p.array() <= box.high.array()).all();
+}
+
+/// Finite, and where voxels can be counted.
+bool is_place(const Eigen::Vector3d& p) {
+  return p.allFinite() && p.cwiseAbs().maxCoeff() <= RollingMap::kMaxCoordinate_m;
+}
+
 Status check_options(const FlightStart& start, const FlyOptions& options) {
   if (!can_plan()) {
     return fail(ErrorCode::kUnsupported, "fly", "this build has no planner, as OMPL was not found",
                 "install libompl-dev and configure with -DSWIFTLET_WITH_OMPL=ON");
   }
   const auto is_positive = [](double v) { return v > 0.0 && std::isfinite(v); };
+  if (options.max_speed_mps > options.vehicle.max_speed_mps) {
+    return fail(ErrorCode::kUsage, "fly",
+                fmt::format("the vehicle does {} m/s at most", options.vehicle.max_speed_mps),
+                "choose a lower speed");
+  }
+  if (options.goal_m && options.bounds && !is_in(*options.bounds, *options.goal_m)) {
+    return fail(ErrorCode::kUsage, "fly", "the goal lies outside where the vehicle may be",
+                "choose one inside the scene's bounds");
+  }
   const bool is_sound =
       is_positive(options.max_speed_mps) && is_positive(options.body_radius_m) &&
       is_positive(options.max_acceleration_mps2) && is_positive(options.time_limit_s) &&
       is_positive(options.rate_hz) && options.margin_m >= 0.0 && options.comfort_m >= 0.0 &&
-      start.position_m.allFinite() && (!options.goal_m || options.goal_m->allFinite());
+      is_place(start.position_m) && (!options.goal_m || is_place(*options.goal_m));
   if (is_sound) return Done{};
   return fail(ErrorCode::kUsage, "fly", "a place, a speed, a size or a time cannot be used",
               "give finite numbers above 0");

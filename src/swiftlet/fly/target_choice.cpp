@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "swiftlet/plan/motion_check.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -60,7 +62,8 @@ std::optional<FlightTarget> TargetChoice::goal_target(const TargetQuestion& ques
   if (!options_.goal_m) return std::nullopt;
   const double voxel_m = question.view.map().voxel_m();
   const VoxelIndex middle = voxel_containing(*options_.goal_m, voxel_m);
-  if (question.space.path_m(middle))
+  const MotionCheck check(question.view.map(), question.view.field(), body_, policy_);
+  if (question.space.path_m(middle) && check.is_clear(*options_.goal_m))
     return FlightTarget{*options_.goal_m, {}, *options_.goal_m, true};
   const int voxels = static_cast<int>(options_.goal_radius_m / voxel_m);
   std::optional<FlightTarget> nearest;

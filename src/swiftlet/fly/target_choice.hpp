@@ -42,7 +42,6 @@ class TargetChoice {
     std::optional<Eigen::Vector3d> goal_m{};
     std::optional<SpaceBox> bounds{};
     double goal_radius_m = 0.3;  ///< where the goal itself has no room, so near will do
-    double max_speed_mps = 2.0;
   };
   static constexpr std::size_t kFewVoxels = 8;  ///< of a frontier that counts
 
@@ -51,11 +50,10 @@ class TargetChoice {
       : options_(options), camera_(camera), body_(body), policy_(policy) {}
 
   /// Nullopt: there is nothing within reach. Cost: milliseconds; a view is looked for around the
-  /// few best clusters, at most kMostViews times.
+  /// few best clusters, at most kMostTried times.
   [[nodiscard]] std::optional<FlightTarget> choose(const TargetQuestion& question);
   /// It was looked at and did not go away: glass, a black wall. Not to be chosen again.
   void give_up(const FlightTarget& target) { given_up_.push_back(target.looks_at_m); }
-  [[nodiscard]] std::size_t given_up() const { return given_up_.size(); }
 
  private:
   static constexpr std::size_t kMostViews = 24;

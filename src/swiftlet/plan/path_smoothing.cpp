@@ -63,8 +63,8 @@ std::vector<Eigen::Vector3d> shortened(const MotionCheck& check,
 }
 
 std::vector<Eigen::Vector3d> smoothed(const MotionCheck& check,
-                                      const std::vector<Eigen::Vector3d>& points,
-                                      double comfort_m) {
+                                      const std::vector<Eigen::Vector3d>& points, double comfort_m,
+                                      const std::optional<SpaceBox>& bounds) {
   const double spacing_m = kSpacing_voxels * check.map().voxel_m();
   std::vector<Eigen::Vector3d> band = with_points_between(points, spacing_m);
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -75,7 +75,8 @@ std::vector<Eigen::Vector3d> smoothed(const MotionCheck& check,
                              kPush * lack_m * check.way_out(band[i]);
       const double longest_m = kLongestMove * spacing_m;
       if (move.norm() > longest_m) move *= longest_m / move.norm();
-      const Eigen::Vector3d to = band[i] + move;
+      Eigen::Vector3d to = band[i] + move;
+      if (bounds) to = to.cwiseMax(bounds->low).cwiseMin(bounds->high);
       if (!check.is_clear(band[i - 1], to) || !check.is_clear(to, band[i + 1])) continue;
       farthest_m = std::max(farthest_m, move.norm());
       band[i] = to;

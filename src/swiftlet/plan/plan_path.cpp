@@ -145,6 +145,10 @@ Expected<PlannedPath> finished(const MotionCheck& check, std::vector<Eigen::Vect
   if (!path) return tl::make_unexpected(path.error());
   const auto answer = sweep(check.map(), check.body(), *path, policy);
   if (!answer) return tl::make_unexpected(answer.error());
+  if (answer->state != SweepState::kClear) {
+    return fail(ErrorCode::kUsage, "plan", "the path that was found is not clear in the map",
+                "give the field of this map, updated with it");
+  }
   PlannedPath planned;
   planned.points = std::move(points);
   planned.length_m = answer->length_m;
@@ -185,6 +189,12 @@ Expected<PlannedPath> plan_path(const MapSnapshot& map, const DistanceField& fie
                             map.frame_count()),
                 "update() it with this snapshot");
   }
+  if (field.voxel_m() != map.voxel_m()) {
+    return fail(ErrorCode::kUsage, "plan",
+                fmt::format("the field has voxels of {} m, the map of {} m", field.voxel_m(),
+                            map.voxel_m()),
+                "update() it with this snapshot");
+  }
   const auto space = space_for(map, from_world, to_world, options);
   if (!space) return tl::make_unexpected(space.error());
   const MotionCheck check(map, field, body, options.sweep);
@@ -194,7 +204,7 @@ Expected<PlannedPath> plan_path(const MapSnapshot& map, const DistanceField& fie
   auto corners = corners_of({check, from_world, to_world, *space, options});
   if (!corners) return forward_error(std::move(corners));
   auto points = shortened(check, std::move(*corners), options.comfort_m);
-  return finished(check, smoothed(check, points, options.comfort_m), options);
+  return finished(check, smoothed(check, points, options.comfort_m, options.bounds), options);
 }
 
 Expected<PlannedPath> plan_path(const MapSnapshot& map, const BodyShape& body,

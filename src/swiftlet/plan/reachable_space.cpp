@@ -70,7 +70,7 @@ void ReachableSpace::spread(const DistanceField& field, Obstacles obstacles, con
   const double near_voxels = 2.0 * least_m / voxel_m_;
   const auto has_room_at = [&](const VoxelIndex& v) {
     const double room_m = field.distance(v, obstacles).distance_m;
-    if (room_m >= least_m || room_m < here_m) return room_m >= least_m;
+    if (room_m >= least_m || room_m < here_m || room_m <= 0.0) return room_m >= least_m;
     return std::hypot(v.x - from.x, v.y - from.y, v.z - from.z) <= near_voxels;
   };
   std::size_t empty_in_a_row = 0;

@@ -25,12 +25,13 @@ namespace swiftlet {
 /// distance field that have room enough, from voxel to voxel by faces and edges.
 ///
 /// Path lengths are those of the grid, up to 9 % longer than the shortest way in a plane and 18 %
-/// in space. Memory: 6 bytes a voxel of the field's box, kept from flood to flood. Thread safety:
+/// in space. Memory: 5 bytes a voxel of the field's box, kept from flood to flood. Thread safety:
 /// one owner.
 class ReachableSpace {
  public:
   /// Voxels count whose distance to the nearest obstacle, from centre to centre, is `least_m` or
-  /// more; or, within twice that of where the flood begins, as much as there, if that is less.
+  /// more; or, within twice that of where the flood begins, as much as there, if that is less; none
+  /// of an obstacle.
   /// REQUIRES: the field has these obstacles. Cost: O(voxels of the box) to clear, O(voxels
   /// reached).
   void flood(const DistanceField& field, Obstacles obstacles, const Eigen::Vector3d& from_world,

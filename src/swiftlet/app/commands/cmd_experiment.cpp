@@ -90,10 +90,11 @@ Action declare_experiment(CLI::App& parser) {
   parser.add_option("NAME", o->name, "one of 'swiftlet list experiments', all, or fly")
       ->type_name("")
       ->capture_default_str();
-  parser.add_option("-o,--out", o->out, "folder for report.html, .csv, .svg and .png")
+  parser.add_option("-o,--out", o->out, "folder for report.html and its figures; fly: flights.csv")
       ->type_name("FOLDER")
       ->capture_default_str();
   parser.add_option("--flights", o->flights.flights, "fly: of each kind of scene on each map")
+      ->check(CLI::Range(1, 10'000).description(""))
       ->type_name("N")
       ->capture_default_str();
   parser.add_option("--speed", o->flights.max_speed_mps, "fly: at most")

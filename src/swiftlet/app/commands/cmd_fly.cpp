@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <filesystem>
 #include <memory>
 
 #include "swiftlet/app/command.hpp"
@@ -11,6 +13,7 @@
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/report/flight_summary.hpp"
 #include "swiftlet/config/config_file.hpp"
+#include "swiftlet/file/output_file.hpp"
 #include "swiftlet/file/text_output.hpp"
 
 #if SWIFTLET_HAS_EMBREE
@@ -37,6 +40,12 @@ struct FlyCommand {
 };
 
 Faults run_flight(FlyCommand command) {
+  if (!command.track.empty()) {
+    if (auto allowed =
+            check_output(command.track, std::array{std::filesystem::path(command.scene)});
+        !allowed)
+      return fault_of(std::move(allowed));
+  }
   auto task = read_flight_task(command.scene);
   if (!task) return fault_of(std::move(task));
   FlyOptions& how = command.how;
@@ -61,15 +70,16 @@ Faults run_flight(FlyCommand command) {
   how.counts_measured_time = command.map == "octomap";
   const auto report = fly(task->scene, task->start, how, std::move(*map));
   if (!report) return {report.error()};
+  fmt::print("{}\n", command.as_json ? flight_json(*report) : flight_text(*report));
   if (!command.track.empty()) {
     if (auto written = write_text(command.track, track_csv(*report)); !written)
       return fault_of(std::move(written));
   }
-  fmt::print("{}\n", command.as_json ? flight_json(*report) : flight_text(*report));
   if (report->is_success()) return {};
   return {{ErrorCode::kCorruptInput, command.scene,
            fmt::format("the flight ended short of its task: {}", name_of(report->end)),
-           "the same command flies it again, to the bit"}};
+           how.counts_measured_time ? "the same command flies it again, at this machine's pace"
+                                    : "the same command flies it again, to the bit"}};
 }
 
 void declare_how(CLI::App& parser, FlyCommand& command) {

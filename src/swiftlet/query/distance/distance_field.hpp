@@ -34,7 +34,7 @@ enum class DistanceStatus : std::uint8_t {
 
 /// What the field covers, and what counts as an obstacle.
 struct DistanceFieldOptions {
-  double max_distance_m = 2.0;  ///< the reach: greater distances are this one; <= 255 voxels
+  double max_distance_m = 2.0;  ///< the reach: greater distances are this one; < 255 voxels
   bool occupied = true;         ///< answer for Obstacles::kOccupied
   bool not_free = true;         ///< answer for Obstacles::kNotFree
   /// Distances inside obstacles, too: less than zero, by how deep. Twice the memory and time.
@@ -46,7 +46,7 @@ struct DistanceFieldOptions {
   int threads = 1;  ///< that update() shares its work with; the bits are the same with any number
 };
 
-/// An answer of distance_at().
+/// An answer of distance().
 struct DistanceAnswer {
   double distance_m;      ///< to the nearest obstacle, see status
   DistanceStatus status;  ///< what the number means
