@@ -87,9 +87,10 @@ TEST_P(EveryWire, gives_the_cloud_that_was_written) {
   for (const std::string& frame : frames()) {
     auto bytes = writer();
     bytes.header({kStamp_ns}, frame).add(std::uint32_t{2}).add(std::uint32_t{1});
-    bytes.add(std::uint32_t{2});
+    bytes.structs(2);
     for (const char* name : {"x", "rgba"})
       bytes.string(name).add(std::uint32_t{4}).add(std::uint8_t{7}).add(std::uint32_t{1});
+    bytes.end_structs();
     bytes.add(std::uint8_t{0}).add(std::uint32_t{8}).add(std::uint32_t{8});
     bytes.bytes("0123456789abcdef").add(std::uint8_t{1});
     const auto cloud = parsed(bytes, ros::parse_point_cloud);
@@ -111,12 +112,13 @@ TEST_P(EveryWire, gives_the_poses_of_every_type) {
                            type.find("TFMessage") != std::string_view::npos;
       const bool has_child = is_list || type.find("Odometry") != std::string_view::npos ||
                              type.find("TransformStamped") != std::string_view::npos;
-      if (is_list) bytes.add(std::uint32_t{2});
+      if (is_list) bytes.structs(2);
       for (int i = 0; i < (is_list ? 2 : 1); ++i) {
         bytes.header({kStamp_ns}, frame);
         if (has_child) bytes.string("base_link");
         bytes.pose(t_m, R);
       }
+      if (is_list) bytes.end_structs();
       if (type == "nav_msgs/Odometry") bytes.zeros<double>(36 + 6 + 36);
       if (type == "geometry_msgs/PoseWithCovarianceStamped") bytes.zeros<double>(36);
       const auto poses = ros::parse_poses(type, as_message(GetParam(), bytes.text()));
@@ -132,10 +134,11 @@ TEST_P(EveryWire, gives_the_poses_of_every_type) {
 
 TEST_P(EveryWire, cut_at_any_byte_or_full_of_noise_does_no_harm) {
   const auto whole = writer()
-                         .add(std::uint32_t{1})
+                         .structs(1)
                          .header({kStamp_ns}, "odom")
                          .string("base_link")
                          .pose({1, 2, 3}, Eigen::Quaterniond::Identity())
+                         .end_structs()
                          .text();
   const auto parse_all = [&](const std::string& bytes) {
     const SerializedMessage message = as_message(GetParam(), bytes);

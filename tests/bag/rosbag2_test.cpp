@@ -166,6 +166,35 @@ TEST(RecordingFolder, is_read_file_after_file_by_number_with_and_without_metadat
   EXPECT_EQ(read_recording(folder.path()).messages.size(), 4U);
 }
 
+TEST(RecordingFolder, takes_a_file_that_lies_beside_its_packed_form_once) {
+  const test::TempFolder folder;
+  write_database(folder / "flight.v2_0.db3", 0, 2);
+  write_database(folder / "flight.v2_1.db3", 2, 2);
+  test::write_file(folder / "flight.v2_0.db3.zstd",
+                   packed(test::content_of(folder / "flight.v2_0.db3")));
+  const RecordingReading reading = read_recording(folder.path());
+  EXPECT_EQ(reading.error, "");
+  EXPECT_EQ(reading.messages.size(), 4U);
+  test::write_file(folder / "metadata.yaml",
+                   "rosbag2_bagfile_information:\n  relative_file_paths:\n"
+                   "    - flight.v2_1.db3.zstd\n");
+  EXPECT_EQ(read_recording(folder.path()).messages.size(), 2U) << "the user has unpacked it";
+}
+
+TEST(RecordingFolder, does_not_join_what_is_not_one_recording) {
+  const test::TempFolder folder;
+  write_database(folder / "2026.11.28_kitchen.db3", 0, 2);
+  write_database(folder / "2026.11.29_garden.db3", 2, 2);
+  EXPECT_THAT(read_recording(folder.path()).error, HasSubstr("several recordings"));
+  const test::TempFolder other;
+  write_database(other / "f_0.db3", 0, 2);
+  test::BagWriter bag;
+  bag.message("/a", "std_msgs/String", Stamp{1}, "data");
+  bag.end_chunk();
+  test::write_file(other / "f_0.bag", bag.bag());
+  EXPECT_THAT(read_recording(other.path()).error, HasSubstr("have the same number"));
+}
+
 TEST(RecordingFolder, may_hold_bags_of_ros_1) {
   const test::TempFolder folder;
   for (const int i : {0, 1}) {

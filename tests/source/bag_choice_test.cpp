@@ -144,6 +144,47 @@ TEST_F(BagChoice, names_the_frames_there_are_for_one_there_is_not) {
   EXPECT_THAT(read_all(place + "?pose_topic=/odon").error, HasSubstr("did you mean /odom?"));
 }
 
+TEST_F(BagChoice, passes_over_a_pose_that_is_told_once) {
+  mount();
+  bag_.message("/goal_pose", "nav_msgs/Odometry", ms(0), test::odometry_message(ms(0), {9, 9, 9}));
+  flight("/depth", test::info_message(24, 16, 20.0));
+  const auto reading = read_all(address());
+  EXPECT_EQ(reading.error, "");
+  ASSERT_EQ(reading.frames.size(), 11U);
+  EXPECT_NEAR(reading.frames[10].T_world_camera.translation().x(), 1.0, 1e-9);
+}
+
+TEST_F(BagChoice, names_the_topics_that_have_the_same_claim_to_be_the_poses) {
+  mount();
+  for (int t = 0; t <= 1000; t += 20)
+    bag_.message("/wheel/odom", "nav_msgs/Odometry", ms(t),
+                 test::odometry_message(ms(t), {0, 0, 0}));
+  flight("/depth", test::info_message(24, 16, 20.0));
+  EXPECT_THAT(read_all(address()).error,
+              AllOf(HasSubstr("/wheel/odom (nav_msgs/Odometry, 50.0 Hz)"),
+                    HasSubstr("/odom (nav_msgs/Odometry, 20.0 Hz)"), HasSubstr("--pose-topic")));
+  EXPECT_EQ(read_all(address("?pose_topic=/odom")).error, "");
+}
+
+TEST_F(BagChoice, leaves_out_and_counts_an_image_that_is_none) {
+  mount();
+  info("/depth", test::info_message(24, 16, 0.0));  // not calibrated yet
+  info("/depth", test::info_message(24, 16, 20.0));
+  const std::string whole = test::image_message(test::flat(2000), ms(500), "16UC1");
+  for (int t = 0; t <= 1000; t += 50) {
+    pose(t);
+    if (t % 100 != 0) continue;
+    if (t == 500)
+      bag_.message("/depth/image_raw", "sensor_msgs/Image", ms(t), whole.substr(0, 100));
+    else
+      image("/depth", t, test::flat(2000));
+  }
+  const auto reading = read_all(address());
+  EXPECT_EQ(reading.error, "");
+  EXPECT_EQ(reading.frames.size(), 10U);
+  EXPECT_EQ(reading.tally.lost[static_cast<std::size_t>(FrameLoss::kImageUnreadable)], 1U);
+}
+
 TEST_F(BagChoice, asks_which_frame_of_tf_is_the_vehicle_where_a_rig_file_tells_the_mount) {
   test::write_file(folder_ / "rig.yaml", "cameras:\n  - { at_m: [0, 0, 0.5] }\n");
   mount();

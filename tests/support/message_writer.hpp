@@ -42,6 +42,22 @@ class MessageWriter {
     text_ += data;
     return *this;
   }
+  /// So many structures follow, until end_structs(); XCDR2 has their length before them (DDS-XTypes
+  /// 1.3, 7.4.3.5.3).
+  MessageWriter& structs(std::uint32_t count) {
+    if (wire_ == Wire::kCdr2) {
+      add(std::uint32_t{0});
+      length_at_ = text_.size() - sizeof(std::uint32_t);
+    }
+    return add(count);
+  }
+  MessageWriter& end_structs() {
+    if (wire_ != Wire::kCdr2) return *this;
+    const auto length =
+        static_cast<std::uint32_t>(text_.size() - length_at_ - sizeof(std::uint32_t));
+    std::memcpy(text_.data() + length_at_, &length, sizeof(length));
+    return *this;
+  }
   MessageWriter& string(std::string_view text) {
     return bytes(wire_ == Wire::kRos1 ? std::string(text) : std::string(text) + '\0');
   }
@@ -66,6 +82,7 @@ class MessageWriter {
   Wire wire_;
   std::string text_;
   std::size_t start_ = 0;
+  std::size_t length_at_ = 0;  // where the length of the structures stands
 };
 
 }  // namespace swiftlet::test

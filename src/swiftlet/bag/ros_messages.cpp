@@ -75,7 +75,7 @@ std::optional<PointCloud> parse_point_cloud(const SerializedMessage& message) {
   cloud.header = read_header(cursor);
   cloud.height = cursor.read<std::uint32_t>();
   cloud.width = cursor.read<std::uint32_t>();
-  const auto fields = cursor.read<std::uint32_t>();
+  const auto fields = cursor.read_struct_count();
   if (fields > kMaxFields) return std::nullopt;
   for (std::uint32_t i = 0; i < fields; ++i) {
     PointField field;
@@ -166,7 +166,7 @@ std::optional<std::vector<StampedPose>> parse_poses(std::string_view type,
   MessageCursor cursor(message);
   std::vector<StampedPose> poses;
   if (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage") {
-    const auto count = cursor.read<std::uint32_t>();
+    const auto count = cursor.read_struct_count();
     for (std::uint32_t i = 0; i < count && cursor.is_good(); ++i)
       poses.push_back(read_stamped(cursor, true));
   } else if (type == "nav_msgs/Odometry") {

@@ -100,6 +100,7 @@ Expected<std::optional<McapReader::FileRecord>> McapReader::next_record() {
     return forward_error(std::move(read));
   }
   const FileRecord record{mcap::parse_head(raw), offset};
+  if (record.head.op == Op{}) return cut_off(offset, "nothing but zeros");  // power was lost
   if (record.head.body_bytes > left - raw.size())
     return cut_off(offset, fmt::format("a record of {} bytes", record.head.body_bytes));
   if (data_crc_ && record.head.op != Op::kDataEnd) data_crc_ = mcap::crc32(raw, *data_crc_);

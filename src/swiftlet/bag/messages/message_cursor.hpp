@@ -68,6 +68,11 @@ class MessageCursor {
     if (!is_ros1() && text.ends_with('\0')) text.remove_suffix(1);
     return text;
   }
+  /// How many structures follow. XCDR2 tells before how many bytes they take.
+  std::uint32_t read_struct_count() {
+    if (most_alignment_ == 4) (void)read<std::uint32_t>();
+    return read<std::uint32_t>();
+  }
   /// Seconds are unsigned in ROS 1 and signed in ROS 2.
   Stamp read_time() {
     const auto raw_s = read<std::uint32_t>();

@@ -19,6 +19,8 @@ struct Definition {
 // common_interfaces of ROS 2 (Apache-2.0) without their comments, and foxglove_msgs for ROS 2, as
 // in foxglove-sdk (MIT).
 constexpr Definition kDefinitions[]{
+    {"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
+    {"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n"},
     {"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
     {"geometry_msgs/Transform",
      "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
@@ -241,6 +243,8 @@ void collect(const Definition& definition, std::vector<const Definition*>& found
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     const std::string_view type = line.substr(0, line.find_first_of(" ["));
     const Definition* inner = find_definition(type);
+    SWIFTLET_REQUIRE(inner != nullptr || type.find('/') == std::string_view::npos,
+                     "every type that a definition names is in the table");
     if (inner == nullptr || std::ranges::find(found, inner) != found.end()) continue;
     found.push_back(inner);
     collect(*inner, found);

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -29,7 +30,8 @@ constexpr std::size_t kMostFiles = 100'000;
 /// "flight_12.db3.zstd" is number 12 of "flight"; a name without a number is the only one.
 std::pair<std::string, std::uint64_t> place_in_recording(const fs::path& file) {
   std::string name = file.filename().string();
-  name = name.substr(0, name.find('.'));
+  for (const std::string_view tail : {".zstd", ".active", ".db3", ".mcap", ".bag"})
+    if (name.ends_with(tail)) name.resize(name.size() - tail.size());
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   std::uint64_t number = 0;
   std::from_chars(name.data() + digits, name.data() + name.size(), number);
@@ -62,17 +64,31 @@ Expected<std::vector<fs::path>> files_by_name(const fs::path& folder) {
   auto& numbered = recordings.begin()->second;
   std::ranges::sort(numbered);
   std::vector<fs::path> files;
-  for (auto& [number, path] : numbered) files.push_back(std::move(path));
+  std::optional<std::uint64_t> last;
+  for (auto& [number, path] : numbered) {
+    // Of a file and its packed form, which sorts behind it, the first.
+    if (last == number && path == files.back().string() + ".zstd") continue;
+    if (last == number) {
+      return fail(ErrorCode::kUsage, folder.string(),
+                  fmt::format("{} and {} have the same number", path.filename().string(),
+                              files.back().filename().string()),
+                  "name one of them, or the folder of one recording with all its files");
+    }
+    last = number;
+    files.push_back(std::move(path));
+  }
   return files;
 }
 
-/// Older recorders wrote the folder's own name before that of the file, and forgot the ".zstd".
+fs::path unpacked(const fs::path& name) { return name.extension() == ".zstd" ? name.stem() : name; }
+
+/// Older recorders wrote the folder's own name before that of the file, and forgot the ".zstd"; and
+/// users unpack.
 Expected<fs::path> listed_file(const fs::path& folder, const std::string& listed) {
   const fs::path name = fs::path(listed).filename();
   std::error_code none;
-  for (const char* tail : {"", ".zstd"}) {
-    const fs::path file = folder / (name.string() + tail);
-    if (!name.empty() && fs::is_regular_file(file, none)) return file;
+  for (const fs::path& file : {name, fs::path(name.string() + ".zstd"), unpacked(name)}) {
+    if (!file.empty() && fs::is_regular_file(folder / file, none)) return folder / file;
   }
   return fail(ErrorCode::kNotFound, (folder / name).string(),
               "metadata.yaml lists the file, but it is not there",

@@ -58,7 +58,10 @@ bool has_sqlite_magic(std::span<const std::byte> start) {
 class Rosbag2Reader::Rows {
  public:
   /// Opened so that reading changes nothing on the disk, unless a log has to be read, too.
-  static int open(const std::filesystem::path& path, Rows& rows) {
+  static int open(const std::filesystem::path& name, Rows& rows) {
+    std::error_code unknown;  // behind a link, the log lies beside the file itself
+    std::filesystem::path path = std::filesystem::canonical(name, unknown);
+    if (unknown) path = name;
     const bool is_logged = has_write_ahead_log(path);
     const std::string uri = sqlite_uri(path, is_logged ? "mode=ro" : "mode=ro&immutable=1");
     constexpr int kFlags = SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX;

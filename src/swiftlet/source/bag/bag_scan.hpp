@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -28,10 +27,6 @@ template <class Visit>
     if (visit(**message)) return true;
   }
 }
-
-/// How far the beginning is looked through for transforms: static ones are recorded when the
-/// recorder starts; an image has about a megabyte.
-inline constexpr std::uint64_t kBytesWithStatics = 200U << 20U;
 
 /// The error for a bag without what was asked for; names what there is instead, and what is nearest
 /// to what the user has typed.

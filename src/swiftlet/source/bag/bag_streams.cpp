@@ -99,7 +99,7 @@ Expected<Transform<Body, Camera>> mount_from_tf(const std::filesystem::path& pat
   FrameTree tree;
   auto found = scan_bag(**reader, [&](const BagMessage& message) {
     const std::string& topic = message.connection->topic;
-    if (!is_static_tf(topic)) return (*reader)->bytes_read() > kBytesWithStatics;
+    if (!is_static_tf(topic)) return false;
     const auto poses = ros::parse_poses(message.connection->type, message.serialized());
     if (!poses) return false;
     for (const ros::StampedPose& pose : *poses) {

@@ -45,7 +45,7 @@ struct BagPoses {
   std::string told{};       ///< what was chosen, in words
 };
 
-/// Opens the depth images of a RealSense recording or of a ROS 1 bag; poses also of a text file
+/// Opens the depth images of a recording of the RealSense SDK or of ROS; poses also of a text file
 /// with lines as in TUM's trajectories. What a file is, its content tells and not its name.
 /// Errors: those of RecordingReader; kNotFound naming the topics there are; those of the
 /// intrinsics.

@@ -70,6 +70,7 @@ void look_closely(const BagMessage& message, DepthCandidate& candidate) {
   candidate.width = decoded->depth.raw.width();
   candidate.height = decoded->depth.raw.height();
   candidate.camera = decoded->camera;
+  if (candidate.camera) candidate.evidence += 2;  // points that are an image's, to a pixel
   if (const auto smooth = smooth_share(decoded->depth))
     candidate.evidence += *smooth > 0.6 ? 1 : *smooth < 0.3 ? -2 : 0;
 }

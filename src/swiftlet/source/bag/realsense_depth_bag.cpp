@@ -149,16 +149,22 @@ Expected<std::optional<BagDepth>> open_realsense_depth(const std::filesystem::pa
   DepthSetup setup;
   std::string info_stream;
   Status noted = Done{};
-  bool is_other_kind = false;
+  bool is_other_kind = false, is_for_ros2 = false;
   auto found = scan_bag(**reader, [&](const BagMessage& message) {
     is_other_kind = !is_realsense(message);
-    if (is_other_kind) return true;
+    is_for_ros2 = message.connection->encoding == MessageEncoding::kCdr;
+    if (is_other_kind || is_for_ros2) return true;
     noted = note_setup(**reader, message, setup, info_stream);
     if (auto stream = depth_stream_of(message.connection->topic)) setup.stream = *stream;
     return !noted || !setup.stream.empty();
   });
   if (!found) return forward_error(std::move(found));
   if (is_other_kind) return std::nullopt;
+  if (is_for_ros2) {
+    return fail(ErrorCode::kUnsupported, (*reader)->name(),
+                "it is of the RealSense SDK in messages of its own for ROS 2, which are not read",
+                "record it as .bag, or by the camera's ROS 2 node");
+  }
   if (!noted) return forward_error(std::move(noted));
   if (setup.stream.empty())
     return no_such_topic(**reader, "it holds no depth images", "name the depth recording first");

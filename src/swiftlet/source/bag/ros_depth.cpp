@@ -66,9 +66,7 @@ class RosDepth final : public DepthStream {
       if ((*message)->connection->topic == topic_) {
         auto done = finish();
         if (!done) return done;
-        auto begun = begin(**message);
-        if (!begun && !*done) return forward_error(std::move(begun));
-        if (!begun) fault_ = std::move(begun).error();  // told after the one before it
+        begin(**message);
         if (*done) return done;
       } else if ((*message)->connection->topic == info_topic_) {
         note_info(**message);
@@ -77,6 +75,8 @@ class RosDepth final : public DepthStream {
     }
   }
 
+  std::vector<SkippedImage> take_skipped() override { return std::exchange(skipped_, {}); }
+
  private:
   struct Pending {
     Stamp stamp;
@@ -84,13 +84,17 @@ class RosDepth final : public DepthStream {
     std::string place;
   };
 
-  Status begin(const BagMessage& message) {
+  /// One that is no image is left out: it must not cost the others.
+  void begin(const BagMessage& message) {
     auto decoded = decode_depth(message, unit_m_);
-    if (!decoded)
-      return fail(ErrorCode::kCorruptInput, reader_->place_of(message), std::move(decoded).error());
+    if (!decoded) {
+      skipped_.push_back(
+          {FrameLoss::kImageUnreadable,
+           {ErrorCode::kCorruptInput, reader_->place_of(message), std::move(decoded).error(), {}}});
+      return;
+    }
     pending_.emplace(
         Pending{decoded->stamp, std::move(decoded->depth), reader_->place_of(message)});
-    return Done{};
   }
 
   /// One that cannot be meant, as a driver sends that is not calibrated, changes nothing.
@@ -114,6 +118,7 @@ class RosDepth final : public DepthStream {
   float unit_m_;
   std::optional<Pending> pending_;
   std::optional<Error> fault_;
+  std::vector<SkippedImage> skipped_;
 };
 
 struct FoundInfo {
@@ -138,14 +143,19 @@ Expected<FoundInfo> info_of_images(const RecordingReader& reader, const std::str
 Expected<FoundInfo> find_info(RecordingReader& reader, const std::string& topic,
                               const DepthCandidate& images) {
   Expected<FoundInfo> found = tl::make_unexpected(Error{});
+  bool is_unusable = false;
   auto is_found = scan_bag(reader, [&](const BagMessage& message) {
     if (message.connection->type != kInfoType || !is_same_name(message.connection->topic, topic))
       return false;
     const auto info = ros::parse_camera_info(message.serialized());
     const std::string place = reader.place_of(message);
-    if (!info) {
-      found = fail(ErrorCode::kCorruptInput, place, "it is no CameraInfo");
-      return true;
+    // One that cannot be meant, as before a driver is calibrated, is followed by others.
+    if (!info || !(info->K[0] > 0.0)) {
+      found = fail(ErrorCode::kCorruptInput, place,
+                   info ? "its CameraInfo has no focal length" : "it is no CameraInfo",
+                   "choose a topic with --info-topic");
+      is_unusable = true;
+      return false;
     }
     auto intrinsics = intrinsics_of_images(*info, images.width, images.height, place);
     if (!intrinsics) {
@@ -158,7 +168,7 @@ Expected<FoundInfo> find_info(RecordingReader& reader, const std::string& topic,
     return true;
   });
   if (!is_found) return forward_error(std::move(is_found));
-  if (*is_found) return found;
+  if (*is_found || (is_unusable && !images.camera)) return found;
   return info_of_images(reader, topic, images);
 }
 

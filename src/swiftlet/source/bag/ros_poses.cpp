@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -56,76 +58,124 @@ class RosPoses final : public PoseStream {
   BodyAxes axes_;
 };
 
-struct FoundPoses {
-  std::string topic, type, child;
-  bool is_complete = false;  // nothing more has to be found
-  bool has_tf = false;
-  std::set<std::string> frames{};  // that it has, as far as it was read
+/// A topic that may tell where the vehicle is.
+struct PoseCandidate {
+  std::string topic, type;
+  std::set<std::string> frames{};  // whose poses it has, as far as it was read
+  bool has_body = false;           // that of the frame that was asked for
+  std::size_t poses = 0;
+  Stamp first, last;  // when they were recorded
+
+  [[nodiscard]] double rate_hz() const {
+    const double span_s = seconds(last - first);
+    return span_s > 0.0 ? static_cast<double>(poses - 1) / span_s : 0.0;
+  }
+  /// "/odom (nav_msgs/Odometry, 50.0 Hz)"
+  [[nodiscard]] std::string text() const {
+    return fmt::format("{} ({}, {:.1f} Hz)", topic, type, rate_hz());
+  }
 };
 
-/// Looks at a message of poses; true if that is all there is to be known.
-bool note_poses(const BagConnection& connection, const std::vector<ros::StampedPose>& poses,
-                const BagTopics& topics, FoundPoses& found) {
-  constexpr std::size_t kMostFrames = 100;
-  if (poses.empty() || (!found.topic.empty() && found.topic != connection.topic)) return false;
-  found.topic = connection.topic;
-  found.type = connection.type;
-  for (const ros::StampedPose& pose : poses) {
-    if (found.frames.size() < kMostFrames) found.frames.insert(pose.child);
-    if (!topics.body_frame.empty() && !is_meant(pose, topics.body_frame)) continue;
-    found.child = topics.body_frame.empty() ? pose.child : topics.body_frame;
-    found.is_complete = true;
+struct PoseSurvey {
+  std::vector<PoseCandidate> candidates;
+  bool is_tf = false;  // tf was asked for, or there is nothing else
+};
+
+void note_poses(const BagMessage& message, const std::string& body_frame,
+                std::vector<PoseCandidate>& candidates) {
+  constexpr std::size_t kMostFrames = 100, kMostCandidates = 64;
+  const BagConnection& connection = *message.connection;
+  const auto poses = ros::parse_poses(connection.type, message.serialized());
+  if (!poses || poses->empty()) return;
+  auto found = std::ranges::find(candidates, connection.topic, &PoseCandidate::topic);
+  if (found == candidates.end()) {
+    if (candidates.size() == kMostCandidates) return;
+    candidates.push_back({.topic = connection.topic,
+                          .type = connection.type,
+                          .first = message.record_time,
+                          .last = message.record_time});
+    found = candidates.end() - 1;
   }
-  return found.is_complete;
+  ++found->poses;
+  found->last = message.record_time;
+  const ros::StampedPose& pose = poses->front();
+  found->has_body |= is_meant(pose, body_frame);
+  if (found->frames.size() < kMostFrames) found->frames.insert(pose.child);
 }
 
-Expected<FoundPoses> find_poses(RecordingReader& reader, const BagTopics& topics) {
-  FoundPoses found;
-  auto is_found = scan_bag(reader, [&](const BagMessage& message) {
+/// Reads on until one has plainly poses, and some more, so that another beside it is seen.
+Expected<PoseSurvey> survey_poses(RecordingReader& reader, const BagTopics& topics) {
+  constexpr std::size_t kPlainly = 10;
+  constexpr std::uint64_t kBytesToCompare = 60U << 20U;  // an image has about one
+  PoseSurvey survey;
+  bool has_tf = false;
+  std::optional<std::uint64_t> enough;  // bytes
+  auto scanned = scan_bag(reader, [&](const BagMessage& message) {
+    if (enough && reader.bytes_read() > *enough) return true;
     const BagConnection& connection = *message.connection;
     const bool is_pose =
         std::ranges::find(ros::kPoseTypes, connection.type) != ros::kPoseTypes.end();
     const bool is_tf = is_tf_type(connection.type);
-    found.has_tf |= is_tf;
-    const bool is_asked =
-        topics.pose.empty() ? !is_tf : is_same_name(connection.topic, topics.pose);
-    if (!is_pose || !is_asked) return false;
-    if (is_tf) {
-      found.type = connection.type;
-      return true;
-    }
-    const auto poses = ros::parse_poses(connection.type, message.serialized());
-    return poses && note_poses(connection, *poses, topics, found);
+    has_tf |= is_tf;
+    if (topics.pose.empty() ? is_tf : !is_same_name(connection.topic, topics.pose)) return false;
+    survey.is_tf |= is_tf;
+    if (!is_pose || is_tf) return survey.is_tf;
+    note_poses(message, topics.body_frame, survey.candidates);
+    const auto plain = std::ranges::find_if(survey.candidates, [&](const PoseCandidate& c) {
+      return c.has_body && c.poses >= (topics.pose.empty() ? kPlainly : 1);
+    });
+    if (plain == survey.candidates.end()) return false;
+    if (!enough) enough = reader.bytes_read() + kBytesToCompare;
+    return !topics.pose.empty();
   });
-  if (!is_found) return forward_error(std::move(is_found));
-  if (found.is_complete || is_tf_type(found.type)) return found;
-  if (found.topic.empty() && found.has_tf && topics.pose.empty()) {
-    found.type = "tf2_msgs/TFMessage";
-    return found;
-  }
-  if (found.topic.empty()) {
-    return no_such_topic(reader,
-                         topics.pose.empty() ? "it holds no poses (Odometry, PoseStamped, "
-                                               "PoseWithCovarianceStamped, TransformStamped, tf)"
-                                             : "it has no poses on " + topics.pose,
-                         "choose a topic with --pose-topic", topics.pose);
-  }
-  const std::vector<std::string> frames(found.frames.begin(), found.frames.end());
-  return fail(ErrorCode::kNotFound, fmt::format("{} ({})", reader.name(), found.topic),
-              fmt::format("there is no frame {}", topics.body_frame),
-              names_instead(topics.body_frame, frames));
+  if (!scanned && survey.candidates.empty() && !has_tf) return forward_error(std::move(scanned));
+  if (survey.candidates.empty() && topics.pose.empty()) survey.is_tf = has_tf;
+  return survey;
 }
 
-std::string told(const FoundPoses& found, const RecordingReader& reader) {
-  std::string others;
-  for (const auto& [id, connection] : reader.connections()) {
-    const bool is_other =
-        connection.topic != found.topic && !is_tf_type(connection.type) &&
-        std::ranges::find(ros::kPoseTypes, connection.type) != ros::kPoseTypes.end();
-    if (is_other) others += (others.empty() ? "; not from " : ", ") + connection.topic;
+tl::unexpected<Error> no_poses(const RecordingReader& reader, const BagTopics& topics) {
+  return no_such_topic(reader,
+                       topics.pose.empty() ? "it holds no poses (Odometry, PoseStamped, "
+                                             "PoseWithCovarianceStamped, TransformStamped, tf)"
+                                           : "it has no poses on " + topics.pose,
+                       "choose a topic with --pose-topic", topics.pose);
+}
+
+/// The one that tells where the vehicle is, all the time: a goal or a first guess is told once.
+Expected<PoseCandidate> choose_poses(const RecordingReader& reader,
+                                     std::vector<PoseCandidate> candidates,
+                                     const std::string& body_frame) {
+  std::set<std::string> frames;
+  std::string topics;
+  for (const PoseCandidate& candidate : candidates) {
+    frames.insert(candidate.frames.begin(), candidate.frames.end());
+    topics += (topics.empty() ? "" : ", ") + candidate.topic;
   }
-  return fmt::format("poses{}{} from {} ({}){}", found.child.empty() ? "" : " of ", found.child,
-                     found.topic, found.type, others);
+  std::erase_if(candidates, [](const PoseCandidate& c) { return !c.has_body; });
+  if (candidates.empty()) {
+    return fail(ErrorCode::kNotFound, fmt::format("{} ({})", reader.name(), topics),
+                fmt::format("there is no frame {}", body_frame),
+                names_instead(body_frame, std::vector(frames.begin(), frames.end())));
+  }
+  const auto is_rare = [](const PoseCandidate& c) { return c.poses < 3 || c.rate_hz() < 1.0; };
+  if (!std::ranges::all_of(candidates, is_rare)) std::erase_if(candidates, is_rare);
+  if (candidates.size() == 1) return std::move(candidates.front());
+  std::string texts;
+  for (const PoseCandidate& c : candidates) texts += (texts.empty() ? "" : ", ") + c.text();
+  return fail(ErrorCode::kUsage, reader.name(),
+              "several of its topics may tell where the vehicle was: " + texts,
+              "choose a topic with --pose-topic");
+}
+
+std::string told(const PoseCandidate& chosen, const std::string& child,
+                 const std::vector<PoseCandidate>& candidates) {
+  std::string others;
+  for (const PoseCandidate& candidate : candidates) {
+    if (candidate.topic != chosen.topic)
+      others += (others.empty() ? "; not from " : ", ") + candidate.topic;
+  }
+  return fmt::format("poses{}{} from {} ({}){}", child.empty() ? "" : " of ", child, chosen.topic,
+                     chosen.type, others);
 }
 
 }  // namespace
@@ -133,14 +183,18 @@ std::string told(const FoundPoses& found, const RecordingReader& reader) {
 Expected<BagPoses> open_ros_poses(const std::filesystem::path& path, const BagTopics& topics) {
   auto first = open_recording(path);
   if (!first) return forward_error(std::move(first));
-  auto found = find_poses(**first, topics);
-  if (!found) return forward_error(std::move(found));
-  if (is_tf_type(found->type)) return open_tf_poses(path, topics);
+  auto survey = survey_poses(**first, topics);
+  if (!survey) return forward_error(std::move(survey));
+  if (survey->is_tf) return open_tf_poses(path, topics);
+  if (survey->candidates.empty()) return no_poses(**first, topics);
+  auto chosen = choose_poses(**first, survey->candidates, topics.body_frame);
+  if (!chosen) return forward_error(std::move(chosen));
   auto again = open_recording(path);
   if (!again) return forward_error(std::move(again));
-  return BagPoses{std::make_unique<RosPoses>(std::move(*again), found->topic, topics.body_frame,
+  const std::string child = topics.body_frame.empty() ? *chosen->frames.begin() : topics.body_frame;
+  return BagPoses{std::make_unique<RosPoses>(std::move(*again), chosen->topic, topics.body_frame,
                                              topics.pose_axes),
-                  found->topic, found->child, false, told(*found, **first)};
+                  chosen->topic, child, false, told(*chosen, child, survey->candidates)};
 }
 
 }  // namespace swiftlet

@@ -19,6 +19,8 @@ namespace {
 using Ties = std::map<std::string, TfChain::Tie, std::less<>>;  // by the child; the first stays
 
 constexpr std::size_t kMostFrames = 10'000;
+// So far every tie is waited for that may hang the root on something more; an image has a megabyte.
+constexpr std::uint64_t kBytesWithTree = 200U << 20U;
 
 void note_ties(const BagMessage& message, Ties& ties) {
   const auto poses = ros::parse_poses(message.connection->type, message.serialized());
@@ -98,13 +100,15 @@ bool is_wanted_tf(const BagConnection& connection, const BagTopics& topics) {
 
 Expected<TfChain> find_tf_chain(RecordingReader& reader, const BagTopics& topics) {
   Ties ties;
+  const std::string place =
+      fmt::format("{} ({})", reader.name(), topics.pose.empty() ? "/tf" : topics.pose);
   const auto scanned = scan_bag(reader, [&](const BagMessage& message) {
-    if (is_wanted_tf(*message.connection, topics)) note_ties(message, ties);
-    return reader.bytes_read() > kBytesWithStatics;
+    if (!is_wanted_tf(*message.connection, topics)) return false;
+    note_ties(message, ties);
+    return reader.bytes_read() > kBytesWithTree && chain_in(ties, topics, place).has_value();
   });
   if (!scanned && ties.empty()) return tl::make_unexpected(scanned.error());
-  return chain_in(ties, topics,
-                  fmt::format("{} ({})", reader.name(), topics.pose.empty() ? "/tf" : topics.pose));
+  return chain_in(ties, topics, place);
 }
 
 }  // namespace swiftlet

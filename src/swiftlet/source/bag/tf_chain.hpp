@@ -35,10 +35,10 @@ struct TfChain {
 /// Whether a topic's transforms are meant: all but those of other tf topics than `topics.pose`.
 [[nodiscard]] bool is_wanted_tf(const BagConnection& connection, const BagTopics& topics);
 
-/// Looks the beginning of a recording through for the chain from `topics.body_frame` up to
-/// `topics.world_frame`. Without a world, it ends at the root. Without a body, the vehicle is what
-/// moves lowest above `topics.camera_frame`. Errors: those of RecordingReader; kNotFound and
-/// kUsage, naming the frames there are.
+/// Looks a recording through, its first 200 MB or until it is found, for the chain from
+/// `topics.body_frame` up to `topics.world_frame`. Without a world, it ends at the root. Without a
+/// body, the vehicle is what moves lowest above `topics.camera_frame`. Errors: those of
+/// RecordingReader; kNotFound and kUsage, naming the frames there are.
 [[nodiscard]] Expected<TfChain> find_tf_chain(RecordingReader& reader, const BagTopics& topics);
 
 }  // namespace swiftlet
