@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/bag_writer.hpp"
 #include "support/recordings.hpp"
 #include "support/seeds.hpp"
@@ -166,13 +168,15 @@ TEST_F(BagChoice, names_the_topics_that_have_the_same_claim_to_be_the_poses) {
   EXPECT_EQ(read_all(address("?pose_topic=/odom")).error, "");
 }
 
-TEST_F(BagChoice, leaves_out_and_counts_an_image_that_is_none) {
+TEST_F(BagChoice, leaves_out_an_image_and_a_pose_that_are_none) {
   mount();
   info("/depth", test::info_message(24, 16, 0.0));  // not calibrated yet
   info("/depth", test::info_message(24, 16, 20.0));
   const std::string whole = test::image_message(test::flat(2000), ms(500), "16UC1");
+  const std::string cut = test::odometry_message(ms(501), {0, 0, 0}).substr(0, 60);
   for (int t = 0; t <= 1000; t += 50) {
     pose(t);
+    if (t == 500) bag_.message("/odom", "nav_msgs/Odometry", ms(t), cut);
     if (t % 100 != 0) continue;
     if (t == 500)
       bag_.message("/depth/image_raw", "sensor_msgs/Image", ms(t), whole.substr(0, 100));
@@ -183,6 +187,7 @@ TEST_F(BagChoice, leaves_out_and_counts_an_image_that_is_none) {
   EXPECT_EQ(reading.error, "");
   EXPECT_EQ(reading.frames.size(), 10U);
   EXPECT_EQ(reading.tally.lost[static_cast<std::size_t>(FrameLoss::kImageUnreadable)], 1U);
+  EXPECT_EQ(std::ranges::count(reading.events, RigEventKind::kSkipped, &RigEvent::kind), 2);
 }
 
 TEST_F(BagChoice, asks_which_frame_of_tf_is_the_vehicle_where_a_rig_file_tells_the_mount) {

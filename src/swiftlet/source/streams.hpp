@@ -30,6 +30,8 @@ class PoseStream {
   virtual ~PoseStream() = default;
   /// nullopt at the end. After an error the stream is at its end.
   [[nodiscard]] virtual Expected<std::optional<PoseSample>> next() = 0;
+  /// Messages that are no poses and were left out since the last call, with file and place.
+  [[nodiscard]] virtual std::vector<Error> take_skipped() { return {}; }
 };
 
 using DepthStreamPtr = std::unique_ptr<DepthStream>;

@@ -41,9 +41,13 @@ class RosPoses final : public PoseStream {
       if (!*message) return std::nullopt;
       if ((*message)->connection->topic != topic_) continue;
       const auto poses = ros::parse_poses((*message)->connection->type, (*message)->serialized());
-      if (!poses)
-        return fail(ErrorCode::kCorruptInput, reader_->place_of(**message),
-                    "it is no " + (*message)->connection->type);
+      if (!poses) {  // it must not cost the others
+        skipped_.push_back({ErrorCode::kCorruptInput,
+                            reader_->place_of(**message),
+                            "it is no " + (*message)->connection->type,
+                            {}});
+        continue;
+      }
       const auto wanted = std::ranges::find_if(
           *poses, [&](const ros::StampedPose& pose) { return is_meant(pose, child_); });
       if (wanted != poses->end())
@@ -51,8 +55,11 @@ class RosPoses final : public PoseStream {
     }
   }
 
+  std::vector<Error> take_skipped() override { return std::exchange(skipped_, {}); }
+
  private:
   RecordingReaderPtr reader_;
+  std::vector<Error> skipped_;
   std::string topic_;
   std::string child_;
   BodyAxes axes_;

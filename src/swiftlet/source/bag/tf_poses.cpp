@@ -85,9 +85,13 @@ class TfPoses final : public PoseStream {
       const BagConnection& connection = *(*message)->connection;
       if (!is_wanted_tf(connection, topics_) || is_static_tf(connection.topic)) continue;
       const auto poses = ros::parse_poses(connection.type, (*message)->serialized());
-      if (!poses)
-        return fail(ErrorCode::kCorruptInput, reader_->place_of(**message),
-                    "it is no " + connection.type);
+      if (!poses) {  // it must not cost the others
+        skipped_.push_back({ErrorCode::kCorruptInput,
+                            reader_->place_of(**message),
+                            "it is no " + connection.type,
+                            {}});
+        continue;
+      }
       for (const ros::StampedPose& pose : *poses) take(pose);
       settle(false);
     }
@@ -95,6 +99,8 @@ class TfPoses final : public PoseStream {
     ready_.pop_front();
     return in_our_axes(pose, topics_.pose_axes);
   }
+
+  std::vector<Error> take_skipped() override { return std::exchange(skipped_, {}); }
 
  private:
   void take(const ros::StampedPose& pose) {
@@ -140,6 +146,7 @@ class TfPoses final : public PoseStream {
   }
 
   RecordingReaderPtr reader_;
+  std::vector<Error> skipped_;
   BagTopics topics_;
   std::vector<TfTrack> tracks_;  // from the vehicle upwards
   std::deque<Stamp> waiting_;    // of the lowest tie that moves, for the ties above

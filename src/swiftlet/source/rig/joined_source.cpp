@@ -157,6 +157,7 @@ Expected<bool> JoinedSource::look_at_pose() {
   std::optional<Error> fault;
   while (!pose_ahead_ && !(pose_ahead_ = gates_.poses.pop()) && poses_ != nullptr) {
     auto pose = poses_->next();
+    for (Error& skipped : poses_->take_skipped()) skipped_.add(std::move(skipped));
     if (!pose) fault = pose.error();
     if (!pose || !*pose) {
       poses_ = nullptr;
