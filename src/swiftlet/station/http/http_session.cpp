@@ -118,7 +118,7 @@ void HttpSession::upgrade() {
   if (!place) return send(busy_answer("as many look at the map as there is room for"));
   auto chosen = host_.choose(view(request[http::field::sec_websocket_protocol]));
   if (!chosen) return send(plain_answer(400, languages()));
-  auto session = std::make_shared<SocketSession>(std::move(stream_), std::move(chosen->protocol),
+  auto session = std::make_shared<SocketSession>(std::move(stream_), std::move(chosen->make),
                                                  chosen->limits, std::move(place));
   session->accept(
       request, chosen->subprotocol,

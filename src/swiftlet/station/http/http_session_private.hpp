@@ -33,7 +33,7 @@ struct HttpHost {
   /// A protocol for one of the subprotocols offered, and the one that was chosen; nullopt if none
   /// of them is spoken here.
   struct Chosen {
-    std::unique_ptr<ClientProtocol> protocol;
+    SocketSession::MakeProtocol make;
     std::string subprotocol;
     SocketSession::Limits limits;
   };

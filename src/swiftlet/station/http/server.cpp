@@ -30,7 +30,7 @@ std::optional<HttpHost::Chosen> choose_protocol(std::string_view offered, const 
     for (const Subprotocol& known : subprotocols()) {
       if (known.name == name) {
         return HttpHost::Chosen{
-            known.make(model),
+            [&model, make = known.make] { return make(model); },
             std::string(name),
             {.max_message = known.max_message, .messages_per_s = known.messages_per_s}};
       }

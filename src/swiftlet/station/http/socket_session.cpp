@@ -41,6 +41,7 @@ void SocketSession::accept(const HttpRequest& request, const std::string& subpro
   socket_.async_accept(
       request, [self = shared_from_this(), opened = std::move(opened)](beast::error_code error) {
         if (error) return;
+        self->protocol_ = self->make_protocol_();
         self->is_open_ = true;
         opened(self);
         self->read();

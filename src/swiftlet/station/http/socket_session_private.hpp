@@ -29,11 +29,15 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
     std::chrono::seconds stall{30};  ///< a message that has not left by then
   };
 
+  /// Makes the protocol when the client is in: it takes the map as it is then, and whoever is told
+  /// of the client then must tell it every change from there on.
+  using MakeProtocol = std::function<std::unique_ptr<ClientProtocol>()>;
+
   /// Holds `place` for as long as it lives.
-  SocketSession(boost::beast::tcp_stream&& stream, std::unique_ptr<ClientProtocol> protocol,
-                const Limits& limits, std::shared_ptr<void> place)
+  SocketSession(boost::beast::tcp_stream&& stream, MakeProtocol make_protocol, const Limits& limits,
+                std::shared_ptr<void> place)
       : socket_(std::move(stream)),
-        protocol_(std::move(protocol)),
+        make_protocol_(std::move(make_protocol)),
         limits_(limits),
         place_(std::move(place)) {}
 
@@ -45,6 +49,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   /// Once a tick: closes a client that takes nothing.
   void check(ClientProtocol::Time now);
   [[nodiscard]] bool is_open() const { return is_open_; }
+  /// REQUIRES: the client is in.
   [[nodiscard]] ClientProtocol& protocol() { return *protocol_; }
 
  private:
@@ -56,6 +61,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   boost::beast::flat_buffer inbox_;
+  MakeProtocol make_protocol_;
   std::unique_ptr<ClientProtocol> protocol_;
   Limits limits_;
   std::shared_ptr<void> place_;
