@@ -10,16 +10,12 @@
 
 #include <algorithm>
 #include <cstring>
-#include <set>
-#include <sstream>
 
 #include "support/bag_writer.hpp"
 #include "support/memory_sink.hpp"
 #include "support/seeds.hpp"
-#include "swiftlet/bag/chunk_codec.hpp"
 #include "swiftlet/bag/mcap/mcap_reader.hpp"
 #include "swiftlet/bag/mcap/mcap_writer.hpp"
-#include "swiftlet/bag/messages/message_definitions.hpp"
 
 namespace swiftlet {
 namespace {
@@ -229,22 +225,6 @@ TEST(Mcap, that_ends_in_zeros_as_power_that_fails_leaves_it_is_told_where_they_b
                                    HasSubstr("what comes before is sound")));
 }
 
-TEST(MessageDefinition, has_every_type_that_it_names) {
-  for (const char* type : {"sensor_msgs/PointCloud2", "nav_msgs/Odometry", "tf2_msgs/TFMessage",
-                           "sensor_msgs/Image", "sensor_msgs/CameraInfo", "nav_msgs/Path"}) {
-    std::istringstream text(message_definition(type));
-    std::set<std::string> named, defined;
-    for (std::string line; std::getline(text, line);) {
-      const std::string word = line.substr(0, line.find_first_of(" ["));
-      if (line.starts_with("MSG: ")) defined.insert(line.substr(5));
-      if (word.find('/') != std::string::npos) named.insert(word);
-    }
-    EXPECT_TRUE(named.contains("builtin_interfaces/Time")) << type;
-    for (const std::string& name : named)
-      EXPECT_TRUE(defined.contains(name)) << type << " " << name;
-  }
-}
-
 TEST(Mcap, packed_by_lz4_is_read) {
   PlainMcap inner;
   inner.topic(7, "/a", "ros1").message(7, 5, "data");
@@ -314,13 +294,6 @@ TEST(McapWriter, sends_a_chunk_to_the_disk_once_a_second) {
   for (int ms = 0; ms <= 3500; ms += 100)
     ASSERT_TRUE(writer->write(topic, Stamp{ms * 1'000'000LL}, as_data("data")));
   EXPECT_GE(read_mcap(*out).messages.size(), 30U) << "of a writer that is killed now";
-}
-
-TEST(PackedMessages, that_would_grow_without_end_are_told_from_depth) {
-  EXPECT_TRUE(is_growth_plausible(1000, 20'000));
-  EXPECT_TRUE(is_growth_plausible(100U << 20U, 100ULL << 30U));
-  EXPECT_TRUE(is_growth_plausible(1U << 20U, 8ULL << 30U)) << "a camera that sees nothing";
-  EXPECT_FALSE(is_growth_plausible(1U << 20U, 40ULL << 30U));
 }
 
 }  // namespace

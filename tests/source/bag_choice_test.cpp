@@ -33,9 +33,9 @@ class BagChoice : public ::testing::Test {
     bag_.message("/tf", "tf2_msgs/TFMessage", ms(t_ms),
                  test::tf_message(ms(t_ms), "odom", frame, {1e-3 * t_ms, 0, 1}));
   }
-  void mount(const std::string& body = "base_link") {
+  void mount() {
     bag_.message("/tf_static", "tf2_msgs/TFMessage", kStart,
-                 test::tf_message(kStart, body, "depth_optical", {0, 0, 0}));
+                 test::tf_message(kStart, "base_link", "depth_optical", {0, 0, 0}));
   }
   void info(const std::string& camera, const std::string& message) {
     bag_.message(camera + "/camera_info", "sensor_msgs/CameraInfo", kStart, message);
@@ -115,24 +115,6 @@ TEST_F(BagChoice, asks_which_of_two_depth_cameras_is_meant) {
       << "with or without the slash";
 }
 
-TEST_F(BagChoice, takes_a_frame_with_a_slash_for_the_one_without) {
-  for (const std::string written : {"base_link", "/base_link"}) {
-    for (const std::string asked : {"base_link", "/base_link"}) {
-      bag_ = test::BagWriter();
-      mount(written);
-      info("/depth", test::info_message(24, 16, 20.0));
-      for (int t = 0; t <= 1000; t += 50) {
-        tf(t, "propeller");
-        tf(t, written);
-        if (t % 100 == 0) image("/depth", t, test::flat(2000));
-      }
-      const auto reading = read_all(address("?pose_topic=tf&body_frame=" + asked));
-      EXPECT_EQ(reading.error, "") << written << " " << asked;
-      EXPECT_EQ(reading.frames.size(), 11U) << written << " " << asked;
-    }
-  }
-}
-
 TEST_F(BagChoice, names_the_frames_there_are_for_one_there_is_not) {
   mount();
   tf(0, "base_link");
@@ -188,18 +170,6 @@ TEST_F(BagChoice, leaves_out_an_image_and_a_pose_that_are_none) {
   EXPECT_EQ(reading.frames.size(), 10U);
   EXPECT_EQ(reading.tally.lost[static_cast<std::size_t>(FrameLoss::kImageUnreadable)], 1U);
   EXPECT_EQ(std::ranges::count(reading.events, RigEventKind::kSkipped, &RigEvent::kind), 2);
-}
-
-TEST_F(BagChoice, asks_which_frame_of_tf_is_the_vehicle_where_a_rig_file_tells_the_mount) {
-  test::write_file(folder_ / "rig.yaml", "cameras:\n  - { at_m: [0, 0, 0.5] }\n");
-  mount();
-  for (int t = 0; t <= 1000; t += 50) tf(t, t % 100 == 0 ? "base_link" : "camera_link");
-  info("/depth", test::info_message(24, 16, 20.0));
-  image("/depth", 0, test::flat(2000));
-  const std::string rig = "?rig=" + (folder_ / "rig.yaml").string();
-  EXPECT_THAT(read_all(address(rig)).error,
-              AllOf(HasSubstr("--body-frame"), HasSubstr("base_link, camera_link")));
-  EXPECT_EQ(read_all(address(rig + "&body_frame=base_link")).error, "");
 }
 
 TEST_F(BagChoice, takes_compressed_depth_where_there_are_no_plain_images) {

@@ -200,5 +200,36 @@ TEST_F(TfPoses, counts_a_transform_that_is_none_and_goes_on) {
   EXPECT_TRUE(reading.frames.back().T_world_camera.translation().allFinite());
 }
 
+TEST_F(TfPoses, takes_a_frame_with_a_slash_for_the_one_without) {
+  for (const std::string written : {"base_link", "/base_link"}) {
+    for (const std::string asked : {"base_link", "/base_link"}) {
+      bag_ = test::BagWriter();
+      fixed(written, "depth_optical", {0, 0, 0});
+      camera();
+      for (int t = 0; t <= 1000; t += 50) {
+        tf(t, "odom", "propeller", in_odom(t));
+        tf(t, "odom", written, in_odom(t));
+        if (t % 100 == 0) image(t);
+      }
+      const auto reading = read_all(address("?pose_topic=tf&body_frame=" + asked));
+      EXPECT_EQ(reading.error, "") << written << " " << asked;
+      EXPECT_EQ(reading.frames.size(), 11U) << written << " " << asked;
+    }
+  }
+}
+
+TEST_F(TfPoses, asks_which_frame_of_tf_is_the_vehicle_where_a_rig_file_tells_the_mount) {
+  test::write_file(folder_ / "rig.yaml", "cameras:\n  - { at_m: [0, 0, 0.5] }\n");
+  fixed("base_link", "depth_optical", {0, 0, 0});
+  for (int t = 0; t <= 1000; t += 50)
+    tf(t, "odom", t % 100 == 0 ? "base_link" : "camera_link", in_odom(t));
+  camera();
+  image(0);
+  const std::string rig = "?rig=" + (folder_ / "rig.yaml").string();
+  EXPECT_THAT(read_all(address(rig)).error,
+              AllOf(HasSubstr("--body-frame"), HasSubstr("base_link, camera_link")));
+  EXPECT_EQ(read_all(address(rig + "&body_frame=base_link")).error, "");
+}
+
 }  // namespace
 }  // namespace swiftlet

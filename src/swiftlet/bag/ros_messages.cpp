@@ -147,7 +147,7 @@ std::optional<std::uint32_t> parse_uint32(const SerializedMessage& message) {
 
 std::vector<std::string> parse_frames(std::string_view type, const SerializedMessage& message) {
   std::vector<std::string> frames;
-  if (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage") {
+  if (is_tf_type(type)) {
     for (StampedPose& pose : parse_poses(type, message).value_or(std::vector<StampedPose>{}))
       frames.push_back(std::move(pose.child));
     return frames;
@@ -165,7 +165,7 @@ std::optional<std::vector<StampedPose>> parse_poses(std::string_view type,
                                                     const SerializedMessage& message) {
   MessageCursor cursor(message);
   std::vector<StampedPose> poses;
-  if (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage") {
+  if (is_tf_type(type)) {
     const auto count = cursor.read_struct_count();
     for (std::uint32_t i = 0; i < count && cursor.is_good(); ++i)
       poses.push_back(read_stamped(cursor, true));
@@ -184,6 +184,14 @@ std::optional<std::vector<StampedPose>> parse_poses(std::string_view type,
   }
   if (!cursor.is_whole()) return std::nullopt;
   return poses;
+}
+
+bool is_pose_type(std::string_view type) {
+  return std::ranges::find(kPoseTypes, type) != kPoseTypes.end();
+}
+
+bool is_tf_type(std::string_view type) {
+  return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage";
 }
 
 }  // namespace swiftlet::ros

@@ -136,5 +136,8 @@ inline constexpr std::array<std::string_view, 6> kPoseTypes{
     "geometry_msgs/TransformStamped",
     "tf2_msgs/TFMessage",
     "tf/tfMessage"};
+[[nodiscard]] bool is_pose_type(std::string_view type);
+/// Those of kPoseTypes that tie many frames together.
+[[nodiscard]] bool is_tf_type(std::string_view type);
 
 }  // namespace swiftlet::ros

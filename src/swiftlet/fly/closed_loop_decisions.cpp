@@ -85,13 +85,10 @@ bool ClosedLoop::has_looked_in_vain(const Eigen::Vector3d& p) {
 bool ClosedLoop::has_been_in_view(const Eigen::Vector3d& p) {
   constexpr double kSamePlace_m = 0.5, kNear_m = 3.0;
   constexpr std::ptrdiff_t kLong = 6;  // thoughts: two seconds
-  const Eigen::AngleAxisd yaw(yaw_rad_, Eigen::Vector3d::UnitZ());
-  const auto T_world_body =
-      Transform<World, Body>::trusted(Eigen::Quaterniond(yaw), follower_.place_m());
-  const std::vector<VoxelIndex> voxels = frontier_near(p);
-  if ((p - follower_.place_m()).norm() > kNear_m ||
-      voxels_in_sight(view_.map(), voxels, T_world_body * camera_.T_body_camera, camera_,
-                      policy_.thresholds) == 0)
+  if ((p - follower_.place_m()).norm() > kNear_m) return false;
+  const auto T_world_camera = level_pose(follower_.place_m(), yaw_rad_) * camera_.T_body_camera;
+  if (voxels_in_sight(view_.map(), frontier_near(p), T_world_camera, camera_, policy_.thresholds) ==
+      0)
     return false;
   seen_.push_back(p);
   return std::ranges::count_if(seen_, [&](const Eigen::Vector3d& before) {

@@ -11,11 +11,6 @@ namespace {
 
 constexpr double kStep_m = 0.2;
 
-bool is_within(const std::optional<SpaceBox>& bounds, const Eigen::Vector3d& p) {
-  return !bounds ||
-         ((p.array() >= bounds->low.array()).all() && (p.array() <= bounds->high.array()).all());
-}
-
 }  // namespace
 
 double explored_share(const sim::TrueClearance& truth, const RollingMap& map,
@@ -30,7 +25,7 @@ double explored_share(const sim::TrueClearance& truth, const RollingMap& map,
     waiting.pop_front();
     const Eigen::Vector3d p = centre_of(place, kStep_m);
     const VoxelIndex voxel = voxel_containing(p, map.voxel_m());
-    if (!map.window().contains(block_of(voxel)) || !is_within(bounds, p)) continue;
+    if (!map.window().contains(block_of(voxel)) || (bounds && !bounds->contains(p))) continue;
     if (place != start && truth.distance_m(p, 2.0 * radius_m) <= radius_m) continue;
     ++reached;
     known += thresholds.classify(map.log_odds(voxel)) == Occupancy::kFree ? 1 : 0;

@@ -26,10 +26,6 @@ ViewCamera camera_of(const sim::Scene& scene, const PinholeIntrinsics& intrinsic
   return camera;
 }
 
-bool is_in(const SpaceBox& box, const Eigen::Vector3d& p) {
-  return (p.array() >= box.low.array()).all() && (p.array() <= box.high.array()).all();
-}
-
 /// Finite, and where voxels can be counted.
 bool is_place(const Eigen::Vector3d& p) {
   return p.allFinite() && p.cwiseAbs().maxCoeff() <= RollingMap::kMaxCoordinate_m;
@@ -46,7 +42,7 @@ Status check_options(const FlightStart& start, const FlyOptions& options) {
                 fmt::format("the vehicle does {} m/s at most", options.vehicle.max_speed_mps),
                 "choose a lower speed");
   }
-  if (options.goal_m && options.bounds && !is_in(*options.bounds, *options.goal_m)) {
+  if (options.goal_m && options.bounds && !options.bounds->contains(*options.goal_m)) {
     return fail(ErrorCode::kUsage, "fly", "the goal lies outside where the vehicle may be",
                 "choose one inside the scene's bounds");
   }

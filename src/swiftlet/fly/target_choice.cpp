@@ -38,11 +38,6 @@ bool leads_on(const MapSnapshot& map, const OccupancyThresholds& thresholds, con
   });
 }
 
-Transform<World, Body> pose_of(const FlightTarget& target) {
-  const Eigen::AngleAxisd turn(target.yaw_rad.value_or(0.0), Eigen::Vector3d::UnitZ());
-  return Transform<World, Body>::trusted(Eigen::Quaterniond(turn), target.p_world);
-}
-
 }  // namespace
 
 bool TargetChoice::is_given_up(const Eigen::Vector3d& p) const {
@@ -52,9 +47,7 @@ bool TargetChoice::is_given_up(const Eigen::Vector3d& p) const {
 }
 
 bool TargetChoice::is_allowed(const Eigen::Vector3d& p) const {
-  if (!options_.bounds) return true;
-  return (p.array() >= options_.bounds->low.array()).all() &&
-         (p.array() <= options_.bounds->high.array()).all();
+  return !options_.bounds || options_.bounds->contains(p);
 }
 
 /// The goal, or the reachable place nearest to it if the goal has no room but for its rim.
@@ -123,8 +116,9 @@ double TargetChoice::cost_of(const TargetQuestion& question, const FlightTarget&
                              double way_m) {
   // Nearer to the goal is worth more than near: else what is beside the vehicle comes first.
   if (options_.goal_m) return way_m + kOnward * (*options_.goal_m - target.looks_at_m).norm();
-  const auto seen =
-      gain_.unknown_in_sight(question.view.map(), pose_of(target) * camera_.T_body_camera, camera_);
+  const auto seen = gain_.unknown_in_sight(
+      question.view.map(),
+      level_pose(target.p_world, target.yaw_rad.value_or(0.0)) * camera_.T_body_camera, camera_);
   const double gain = static_cast<double>(seen.value_or(0)) / kUsualGain;
   return (0.5 + way_m) / (0.1 + std::sqrt(gain));
 }

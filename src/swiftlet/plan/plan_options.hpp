@@ -21,6 +21,10 @@ enum class PathSearch : std::uint8_t {
 struct SpaceBox {
   Eigen::Vector3d low;
   Eigen::Vector3d high;
+
+  [[nodiscard]] bool contains(const Eigen::Vector3d& p_world) const {
+    return (p_world.array() >= low.array()).all() && (p_world.array() <= high.array()).all();
+  }
 };
 
 struct PlanOptions {

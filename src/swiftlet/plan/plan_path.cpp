@@ -31,10 +31,6 @@ SpaceBox window_of(const MapSnapshot& map) {
           centre_of(voxels.last, map.voxel_m()) + half};
 }
 
-bool holds(const SpaceBox& box, const Eigen::Vector3d& p) {
-  return (p.array() >= box.low.array()).all() && (p.array() <= box.high.array()).all();
-}
-
 /// Where the search may go: the bounds, or the window, and beyond it to the ends if unknown space
 /// passes.
 Expected<SpaceBox> space_for(const MapSnapshot& map, const Eigen::Vector3d& from,
@@ -49,8 +45,8 @@ Expected<SpaceBox> space_for(const MapSnapshot& map, const Eigen::Vector3d& from
   if (options.sweep.unknown == UnknownSpace::kPasses && !options.bounds)
     space = {space.low.cwiseMin(from).cwiseMin(to), space.high.cwiseMax(from).cwiseMax(to)};
   for (const auto& [name, p] : {std::pair{"from", from}, std::pair{"to", to}}) {
-    const bool is_known = options.sweep.unknown == UnknownSpace::kPasses || holds(window, p);
-    if (is_known && holds(space, p)) continue;
+    const bool is_known = options.sweep.unknown == UnknownSpace::kPasses || window.contains(p);
+    if (is_known && space.contains(p)) continue;
     const SpaceBox& box = is_known ? space : window;
     return fail(ErrorCode::kUsage, name,
                 fmt::format("{} lies outside {}, which reaches from {} to {}", text_of(p),

@@ -20,11 +20,6 @@ std::vector<VoxelIndex> spread(std::span<const VoxelIndex> voxels) {
   return some;
 }
 
-Transform<World, Body> level_pose(const Eigen::Vector3d& p_world, double yaw_rad) {
-  return Transform<World, Body>::trusted(
-      Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())), p_world);
-}
-
 /// Calls visit(pose) for the candidates, the most likely first, until it returns false.
 template <class Visit>
 void for_each_candidate(const FrontierCluster& cluster, double range_m, Visit&& visit) {
@@ -47,6 +42,11 @@ void for_each_candidate(const FrontierCluster& cluster, double range_m, Visit&& 
 }
 
 }  // namespace
+
+Transform<World, Body> level_pose(const Eigen::Vector3d& p_world, double yaw_rad) {
+  return Transform<World, Body>::trusted(
+      Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())), p_world);
+}
 
 std::size_t voxels_in_sight(const MapSnapshot& map, std::span<const VoxelIndex> voxels,
                             const Transform<World, Camera>& T_world_camera,

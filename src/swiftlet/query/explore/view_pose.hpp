@@ -21,6 +21,9 @@ struct ViewPose {
   std::size_t voxels_tried = 0;         ///< of a large cluster, some that are spread evenly over it
 };
 
+/// The body at a place, level, turned to the left by `yaw_rad`.
+[[nodiscard]] Transform<World, Body> level_pose(const Eigen::Vector3d& p_world, double yaw_rad);
+
 /// How many of these voxels the camera sees from a pose: in the image, within range, and with only
 /// free voxels on the way. REQUIRES: voxels inside the window.
 [[nodiscard]] std::size_t voxels_in_sight(const MapSnapshot& map,

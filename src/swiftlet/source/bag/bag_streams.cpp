@@ -54,10 +54,8 @@ tl::unexpected<Error> no_such_topic(const RecordingReader& reader, std::string_v
                                     std::string_view remedy, std::string_view typed) {
   std::set<std::string> topics;
   for (const auto& [id, connection] : reader.connections()) {
-    const bool is_pose =
-        std::ranges::find(ros::kPoseTypes, connection.type) != ros::kPoseTypes.end();
-    if (is_pose || is_depth_type(connection.type) || connection.type == "sensor_msgs/CameraInfo" ||
-        connection.topic.ends_with("/data"))
+    if (ros::is_pose_type(connection.type) || is_depth_type(connection.type) ||
+        connection.type == "sensor_msgs/CameraInfo" || connection.topic.ends_with("/data"))
       topics.insert(connection.topic);
   }
   const std::vector<std::string> known(topics.begin(), topics.end());

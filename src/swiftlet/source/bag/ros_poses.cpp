@@ -120,13 +120,11 @@ Expected<PoseSurvey> survey_poses(RecordingReader& reader, const BagTopics& topi
   auto scanned = scan_bag(reader, [&](const BagMessage& message) {
     if (enough && reader.bytes_read() > *enough) return true;
     const BagConnection& connection = *message.connection;
-    const bool is_pose =
-        std::ranges::find(ros::kPoseTypes, connection.type) != ros::kPoseTypes.end();
-    const bool is_tf = is_tf_type(connection.type);
+    const bool is_tf = ros::is_tf_type(connection.type);
     has_tf |= is_tf;
     if (topics.pose.empty() ? is_tf : !is_same_name(connection.topic, topics.pose)) return false;
     survey.is_tf |= is_tf;
-    if (!is_pose || is_tf) return survey.is_tf;
+    if (!ros::is_pose_type(connection.type) || is_tf) return survey.is_tf;
     note_poses(message, topics.body_frame, survey.candidates);
     const auto plain = std::ranges::find_if(survey.candidates, [&](const PoseCandidate& c) {
       return c.has_body && c.poses >= (topics.pose.empty() ? kPlainly : 1);

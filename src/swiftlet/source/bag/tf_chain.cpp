@@ -87,15 +87,12 @@ Expected<TfChain> chain_in(const Ties& ties, const BagTopics& topics, const std:
 
 }  // namespace
 
-bool is_tf_type(std::string_view type) {
-  return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage";
-}
-
 bool is_static_tf(std::string_view topic) { return topic.ends_with("tf_static"); }
 
 bool is_wanted_tf(const BagConnection& connection, const BagTopics& topics) {
-  return is_tf_type(connection.type) && (topics.pose.empty() || is_static_tf(connection.topic) ||
-                                         is_same_name(connection.topic, topics.pose));
+  return ros::is_tf_type(connection.type) &&
+         (topics.pose.empty() || is_static_tf(connection.topic) ||
+          is_same_name(connection.topic, topics.pose));
 }
 
 Expected<TfChain> find_tf_chain(RecordingReader& reader, const BagTopics& topics) {

@@ -29,7 +29,6 @@ struct TfChain {
   [[nodiscard]] const std::string& world() const { return ties.back().parent; }
 };
 
-[[nodiscard]] bool is_tf_type(std::string_view type);
 /// /tf_static, or that of a namespace.
 [[nodiscard]] bool is_static_tf(std::string_view topic);
 /// Whether a topic's transforms are meant: all but those of other tf topics than `topics.pose`.

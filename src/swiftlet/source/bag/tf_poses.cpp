@@ -29,7 +29,9 @@ constexpr std::size_t kMostWaiting = 4096;
 /// One tie of the chain over time.
 class TfTrack {
  public:
-  explicit TfTrack(TfChain::Tie names) : names_(std::move(names)) { clear(); }
+  explicit TfTrack(TfChain::Tie names) : names_(std::move(names)) {
+    if (const auto T = Tie::from(names_.first.R, names_.first.t_m)) fixed_ = *T;
+  }
 
   [[nodiscard]] bool is_of(const ros::StampedPose& pose) const {
     return !names_.is_static && is_same_name(pose.child, names_.child) &&
@@ -56,7 +58,6 @@ class TfTrack {
   void clear() {
     track_.clear();
     newest_.reset();
-    if (const auto T = Tie::from(names_.first.R, names_.first.t_m)) fixed_ = *T;
   }
 
  private:
