@@ -127,6 +127,19 @@ TEST_F(TfPoses, keeps_a_tie_that_falls_silent_as_it_was_last) {
   EXPECT_LT((reading.frames[20].T_world_camera.translation() - expected).norm(), 1e-9);
 }
 
+TEST_F(TfPoses, gives_what_waits_for_a_correction_before_the_damage_of_a_file) {
+  fixed("base_footprint", "depth_optical", {0, 0, 0});
+  fly(0);
+  bag_.end_chunk();
+  const std::size_t whole = bag_.bag().size();
+  image(1100);
+  bag_.end_chunk();
+  test::write_file(folder_ / "cut.bag", bag_.bag().substr(0, whole + 100));
+  const auto reading = read_all("bag:" + (folder_ / "cut.bag").string());
+  EXPECT_THAT(reading.error, HasSubstr("cut.bag"));
+  EXPECT_EQ(reading.frames.size(), 21U);
+}
+
 TEST_F(TfPoses, leaves_out_what_lies_before_the_first_of_a_tie) {
   fixed("base_footprint", "depth_optical", {0, 0, 0});
   camera();

@@ -28,6 +28,18 @@ template <class Visit>
   }
 }
 
+/// The next message. A fault of the file waits in `fault` while something from before it is
+/// pending: the stream seems to end, gives that, and then tells the fault.
+[[nodiscard]] inline Expected<std::optional<BagMessage>> read_after(RecordingReader& reader,
+                                                                    std::optional<Error>& fault,
+                                                                    bool is_pending) {
+  if (fault && !is_pending) return tl::make_unexpected(*std::exchange(fault, std::nullopt));
+  auto message = reader.next();
+  if (message || !is_pending) return message;
+  fault = std::move(message.error());
+  return std::nullopt;
+}
+
 /// The error for a bag without what was asked for; names what there is instead, and what is nearest
 /// to what the user has typed.
 [[nodiscard]] tl::unexpected<Error> no_such_topic(const RecordingReader& reader,

@@ -13,7 +13,6 @@
 #include "swiftlet/source/bag/bag_survey.hpp"
 #include "swiftlet/source/bag/depth_decoder.hpp"
 #include "swiftlet/source/bag/depth_message.hpp"
-#include "swiftlet/source/bag/realsense_messages.hpp"
 
 // The depth images of recordings of ROS, as of realsense-ros or OpenLORIS-Scene.
 

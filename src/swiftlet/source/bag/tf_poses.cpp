@@ -76,7 +76,7 @@ class TfPoses final : public PoseStream {
 
   Expected<std::optional<PoseSample>> next() override {
     while (ready_.empty()) {
-      auto message = reader_->next();
+      auto message = read_after(*reader_, fault_, !waiting_.empty());
       if (!message) return forward_error(std::move(message));
       if (!*message) {
         settle(true);
@@ -147,6 +147,7 @@ class TfPoses final : public PoseStream {
   }
 
   RecordingReaderPtr reader_;
+  std::optional<Error> fault_;  // of the file, while poses from before it wait
   std::vector<Error> skipped_;
   BagTopics topics_;
   std::vector<TfTrack> tracks_;  // from the vehicle upwards
