@@ -13,7 +13,7 @@ import { createRequire } from "node:module";
 import { deflateSync } from "node:zlib";
 import path from "node:path";
 
-const web = createRequire(path.resolve(import.meta.dirname, "../../web/package.json"));
+const web = createRequire(new URL("../../web/package.json", import.meta.url));
 const { McapWriter } = web("@mcap/core");
 const { MessageWriter: Ros1Writer } = web("@foxglove/rosmsg-serialization");
 const { MessageWriter: Ros2Writer } = web("@foxglove/rosmsg2-serialization");
