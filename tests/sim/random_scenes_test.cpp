@@ -11,6 +11,7 @@
 
 #include "swiftlet/sim/random/generated_scene.hpp"
 #include "swiftlet/sim/random/scene_kinds.hpp"
+#include "swiftlet/sim/ray_caster.hpp"
 #include "swiftlet/sim/vehicle/triangle_distance.hpp"
 #include "swiftlet/sim/vehicle/true_clearance.hpp"
 
@@ -196,6 +197,27 @@ TEST(RandomScenes, name_what_there_is_and_what_may_be_asked) {
   EXPECT_FALSE(generate("forest", 1, {.size_m = 5.0}));
   EXPECT_FALSE(generate("forest", 1, {.density = std::nan("")}));
   EXPECT_FALSE(generate("forest", 1, {.thinnest_m = 0.0}));
+}
+
+/// A camera that looks out of the scene sees nothing there, and a map never learns that it is free.
+TEST(CaveScene, is_closed_around_start_and_goal) {
+  std::vector<Eigen::Vector3f> directions;
+  for (int i = 0; i < 2000; ++i) {  // a spiral over the sphere
+    const double z = (2.0 * i + 1.0) / 2000.0 - 1.0, r = std::sqrt(1.0 - z * z);
+    directions.push_back(Vector3d(r * std::cos(2.4 * i), r * std::sin(2.4 * i), z).cast<float>());
+  }
+  for (std::uint64_t seed = 100; seed < 140; ++seed) {
+    const auto cave = generate("cave", seed);
+    ASSERT_TRUE(cave);
+    const auto caster = RayCaster::create(cave->scene);
+    ASSERT_TRUE(caster);
+    std::vector<Hit> hits(directions.size());
+    for (const Vector3d& from : {cave->task.start_m, cave->task.goal_m}) {
+      caster->cast(from.cast<float>(), directions, hits);
+      EXPECT_TRUE(std::ranges::all_of(hits, [](const Hit& hit) { return hit.distance < 1e3F; }))
+          << seed;
+    }
+  }
 }
 
 }  // namespace

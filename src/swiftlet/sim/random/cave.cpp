@@ -32,8 +32,7 @@ class Cave {
   }
 
   void draw() {
-    const Vector3d low = draft_.task.bounds_m.min(), high = draft_.task.bounds_m.max();
-    draft_.add("cave", stone_, rock_.mesh(low.head<2>(), high.head<2>()));
+    draft_.add("cave", stone_, rock_.mesh());
     const double way_m = 1.3 * length_m_ * draft_.density();
     for (int i = dice_.about(0.7 * way_m); i > 0; --i) drop_boulder();
     for (int i = dice_.about(0.25 * way_m); i > 0; --i) pour_rubble();

@@ -62,7 +62,13 @@ CaveRock::Gap CaveRock::gap(const Vector2d& p) const {
   return {std::min(floor_m, kMeets_m), std::max(ceiling_m, kMeets_m)};
 }
 
-TriangleMesh CaveRock::mesh(const Vector2d& low_m, const Vector2d& high_m) const {
+TriangleMesh CaveRock::mesh() const {
+  Vector2d low_m = Vector2d::Constant(1e9), high_m = -low_m;
+  for (const Passage& passage : passages_) {
+    const Vector2d reach = Vector2d::Constant(passage.radius_m + 2.0 * kMesh_m);
+    low_m = low_m.cwiseMin(passage.from_m - reach).cwiseMin(passage.to_m - reach);
+    high_m = high_m.cwiseMax(passage.from_m + reach).cwiseMax(passage.to_m + reach);
+  }
   const int nx = static_cast<int>((high_m.x() - low_m.x()) / kMesh_m) + 1;
   const int ny = static_cast<int>((high_m.y() - low_m.y()) / kMesh_m) + 1;
   TriangleMesh mesh;

@@ -32,9 +32,8 @@ class CaveRock {
   };
   [[nodiscard]] Gap gap(const Eigen::Vector2d& p) const;
 
-  /// Floor and ceiling between two corners of the level.
-  [[nodiscard]] TriangleMesh mesh(const Eigen::Vector2d& low_m,
-                                  const Eigen::Vector2d& high_m) const;
+  /// Floor and ceiling of all of it. The cave is closed: where the mesh ends, they have met.
+  [[nodiscard]] TriangleMesh mesh() const;
 
  private:
   [[nodiscard]] double roughness(const Eigen::Vector2d& p, double scale_m, unsigned layer) const;
