@@ -53,6 +53,53 @@ TEST(Fly, comes_to_the_goal_behind_the_wall_and_touches_nothing) {
   EXPECT_LT(report->top_speed_mps, 2.3);
 }
 
+/// Holds on to the newest map as a page does.
+class Onlooker final : public SessionObserver {
+ public:
+  void map_begun(const Mapper& mapper) override { reader_.emplace(mapper.reader()); }
+  void frame_done(const Frame&, const MapUpdate&, const Mapper&) override {
+    held_ = reader_->latest();
+    ++frames;
+  }
+  void block_left(const BlockIndex&, const VoxelBlock&, std::uint64_t) override {}
+
+  std::size_t frames = 0;
+
+ private:
+  std::optional<MapReader> reader_;
+  std::optional<MapSnapshot> held_;
+};
+
+TEST(Fly, tells_who_looks_on_what_the_planner_is_at_and_flies_no_differently) {
+  const FlyOptions alone = options_to(Vector(5.8, 1.2, 1.2));
+  FlyOptions watched = alone;
+  std::vector<Course> told;
+  watched.on_course = [&](const Course& course) { told.push_back(course); };
+  Onlooker onlooker;
+  auto map = make_swiftlet_map(watched.mapper, &onlooker);
+  ASSERT_TRUE(map);
+  const auto report = fly(divided_room(), kStart, watched, std::move(*map));
+  const auto unwatched = fly(divided_room(), kStart, alone);
+  ASSERT_TRUE(report && unwatched);
+  EXPECT_EQ(report->digest, unwatched->digest);
+  EXPECT_EQ(onlooker.frames, report->frames);
+  ASSERT_GT(told.size(), 50U);
+  EXPECT_TRUE(std::ranges::is_sorted(told, {}, &Course::frame_count));
+  std::size_t with_path = 0, with_view = 0;
+  for (const Course& course : told) {
+    EXPECT_EQ(course.goal_m, alone.goal_m);
+    with_view += course.looks_at_m ? 1 : 0;
+    if (course.path.size() < 2) continue;
+    ++with_path;
+    ASSERT_TRUE(course.target_m);
+    for (const CoursePoint& point : course.path) EXPECT_GE(point.clearance_m, 0.2);
+  }
+  EXPECT_GT(with_path, 20U);
+  EXPECT_GT(with_view, 5U);  // the goal is behind the wall
+  EXPECT_FALSE(told.front().frontier.empty());
+  EXPECT_LT((told.back().path.back().p_world - *alone.goal_m).norm(), 0.5);
+}
+
 TEST(Fly, repeats_to_the_bit_and_differs_by_seed) {
   FlyOptions options = options_to(Vector(5.8, 1.2, 1.2));
   const auto first = fly(divided_room(), kStart, options);

@@ -67,6 +67,46 @@ TEST(PageProtocol, brings_a_client_to_exactly_the_map_and_proves_it) {
   EXPECT_EQ(pair.client.frame_numbers.size(), 80U);
 }
 
+TEST(PageProtocol, tells_the_newest_course_and_leaves_a_capped_link_to_the_map) {
+  test::Random random;
+  RandomFlight flight(random);
+  MapModel model(flight.feed);
+  Conversation pair(model);
+  Course course;
+  course.path.resize(100);
+  std::size_t bytes = 0, courses = 0;
+  std::uint64_t newest = 0;
+  const auto fly_on = [&](int steps) {
+    for (int i = 0; i < steps; ++i) {
+      flight.step();
+      ++course.frame_count;
+      flight.feed.course(course);
+      pair.protocol->saw(model.poll());
+      while (const auto message = pair.protocol->next(pair.now)) {
+        if (message->is_text || message->data[0] != 5) continue;
+        newest = WireReader::at<std::uint64_t>(message->data, 12);
+        bytes += message->data.size();
+        ++courses;
+      }
+      pair.now += 50ms;
+    }
+  };
+  fly_on(200);  // 10 s
+  EXPECT_NEAR(static_cast<double>(courses), 50.0, 2.0);
+  EXPECT_GE(newest + 4, course.frame_count);
+  pair.say({4, 0, 0, 0}, {8000});
+  bytes = 0;
+  fly_on(400);  // 20 s
+  EXPECT_GT(bytes, 1664U);
+  EXPECT_LT(bytes, 20 * 800 + 2 * 1664U);
+  // A client that comes late gets it at once.
+  const auto late = make_page_protocol(model);
+  std::vector<int> kinds;
+  while (const auto message = late->next(pair.now))
+    if (!message->is_text) kinds.push_back(message->data[0]);
+  EXPECT_EQ(std::ranges::count(kinds, 5), 1);
+}
+
 TEST(PageProtocol, heals_whatever_is_lost_on_the_way) {
   test::Random random;
   RandomFlight flight(random);

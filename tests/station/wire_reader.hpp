@@ -50,6 +50,8 @@ class WireReader {
       case MessageType::kStatus:
         pending = at<std::uint32_t>(message, 84);
         return;
+      case MessageType::kCourse:
+        return;
       case MessageType::kChecksum:
         checksum = MapDigest{at<std::uint32_t>(message, 20), at<std::uint32_t>(message, 24),
                              at<std::uint32_t>(message, 28), at<std::uint32_t>(message, 32),

@@ -96,6 +96,23 @@ TEST(Wire, checksum_is_the_golden_file) {
   expect_golden("checksum.bin", checksum_message({20, 3}, 99, golden_map().digest()));
 }
 
+TEST(Wire, course_is_the_golden_file) {
+  Course course;
+  course.frame_count = 5'000'000'001;
+  course.goal_m = {8.5, 1.75, 1.25};
+  course.target_m = {2.5, -0.5, 1.0};
+  course.path = {{{1.0, 0.5, 1.25}, 0.75}, {{2.5, -0.5, 1.0}, 0.25}};
+  course.frontier = {{{3.0, -1.0, 0.5}, 321}};
+  expect_golden("course.bin", course_message({21, 3}, course));
+}
+
+TEST(Wire, a_course_without_end_is_told_in_part) {
+  Course course;
+  course.path.resize(100'000);
+  course.frontier.resize(100'000);
+  EXPECT_EQ(course_message({0, 1}, course).size(), 64U + 2 * 4096 * 16);
+}
+
 TEST(Wire, a_source_whose_name_is_no_text_does_not_break_the_hello) {
   MapInfo info = small_info();
   info.source = "map\xff\xfe.swl";

@@ -34,6 +34,7 @@ const link = new Link(socket.href, {
     if (world.hello && world.hello.source !== hello.source) events.list = [];
     events.forget();
     world.start(hello);
+    element('show-course').hidden = !world.course;
   },
   message: (message) => {
     const {confirmed, isRight} = world.apply(message);
@@ -42,6 +43,9 @@ const link = new Link(socket.href, {
       status.framesCame(message.frames.length, performance.now());
       events.frames(message.frames, world.hello);
       viewer.refresh();
+    } else if (message.type === 'course') {
+      viewer.refresh();
+      element('show-course').hidden = false;
     } else if (message.type === 'status' && world.hello) {
       events.status(message, world.hello, performance.now());
     }
@@ -69,7 +73,7 @@ function setCamera(mode: CameraMode): void {
     button.setAttribute('aria-checked', String(button.dataset.camera === mode));
   }
 }
-function toggle(what: 'free' | 'unknown' | 'boxes' | 'cut'): void {
+function toggle(what: 'free' | 'unknown' | 'boxes' | 'course' | 'cut'): void {
   viewer.setShown(what, !viewer.show[what]);
   document.querySelector(`[data-show=${what}]`)?.setAttribute('aria-pressed', String(viewer.show[what]));
 }
@@ -88,6 +92,7 @@ const actions: Actions = {
   free: () => toggle('free'),
   unknown: () => toggle('unknown'),
   boxes: () => toggle('boxes'),
+  course: () => toggle('course'),
   colour: () => setColouring(colouring === 'height' ? 'logodds' : 'height'),
   pause: () => setPaused(link.pace !== 'hold'),
   step: () => link.pace === 'hold' && link.setPace('step'),

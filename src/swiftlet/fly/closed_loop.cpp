@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include "swiftlet/fly/closed_loop_private.hpp"
 #include "swiftlet/fly/explored_share.hpp"
@@ -49,8 +50,10 @@ ClosedLoop::ClosedLoop(FlightWorld world, FlownMapPtr map, PlannerView view, con
 }
 
 FlightReport ClosedLoop::run() {
+  const auto begun = std::chrono::steady_clock::now();
   while (!ended_) {
     now_ = now_ + kTick;
+    if (options_.is_paced) std::this_thread::sleep_until(begun + (now_ - Stamp{}));
     world_.vehicle.advance(now_);
     judge();
     sense();
@@ -135,6 +138,7 @@ void ClosedLoop::see_map() {
   frame_ms_sum_ += ms;
   report_.frame_ms_max = std::max(report_.frame_ms_max, ms);
   if (ms > 1000.0 / options_.rate_hz) ++report_.deadline_misses;
+  if (options_.on_course && view_.has_map()) options_.on_course(course());
 }
 
 /// Is the rest of the path still clear? With less margin than it was planned with, so that a voxel

@@ -68,6 +68,7 @@ class ClosedLoop {
   [[nodiscard]] bool has_been_in_view(const Eigen::Vector3d& p);
   [[nodiscard]] std::vector<VoxelIndex> frontier_near(const Eigen::Vector3d& p) const;
   void clear_start();
+  [[nodiscard]] Course course() const;
   void finish_report();
   /// What ended it first stays: a collision on the last metre is one.
   void end(FlightEnd how) { ended_ = ended_.value_or(how); }

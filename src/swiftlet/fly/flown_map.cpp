@@ -13,13 +13,36 @@
 namespace swiftlet {
 namespace {
 
+/// Keeps what leaves the window, and tells who looks on.
+class WatchedArchive final : public BlockArchive {
+ public:
+  explicit WatchedArchive(SessionObserver* observer) : observer_(observer) {}
+  void evict(const BlockIndex& index, const VoxelBlock& block, std::uint64_t version) override {
+    kept_.evict(index, block, version);
+    if (observer_ != nullptr) observer_->block_left(index, block, version);
+  }
+  [[nodiscard]] bool restore(const BlockIndex& index, VoxelBlock& out) override {
+    return kept_.restore(index, out);
+  }
+  void expect_around(const BlockWindow&) override {}
+  [[nodiscard]] const BlockMap& blocks() const { return kept_.blocks(); }
+
+ private:
+  SessionObserver* observer_;
+  MemoryArchive kept_;
+};
+
 class SwiftletMap final : public FlownMap {
  public:
-  SwiftletMap(std::unique_ptr<MemoryArchive> archive, Mapper mapper)
-      : archive_(std::move(archive)), mapper_(std::move(mapper)) {}
+  SwiftletMap(std::unique_ptr<WatchedArchive> archive, Mapper mapper, SessionObserver* observer)
+      : archive_(std::move(archive)), mapper_(std::move(mapper)), observer_(observer) {
+    if (observer_ != nullptr) observer_->map_begun(mapper_);
+  }
 
   bool integrate(const Frame& frame) override {
-    return mapper_.integrate(frame).verdict == FrameVerdict::kIntegrated;
+    const MapUpdate update = mapper_.integrate(frame);
+    if (observer_ != nullptr) observer_->frame_done(frame, update, mapper_);
+    return update.verdict == FrameVerdict::kIntegrated;
   }
   RollingMap& window() override { return mapper_.map(); }
   std::uint64_t frame_count() const override { return mapper_.frame_count(); }
@@ -36,17 +59,18 @@ class SwiftletMap final : public FlownMap {
   }
 
  private:
-  std::unique_ptr<MemoryArchive> archive_;  // outlives the mapper
+  std::unique_ptr<WatchedArchive> archive_;  // outlives the mapper
   Mapper mapper_;
+  SessionObserver* observer_;
 };
 
 }  // namespace
 
-Expected<FlownMapPtr> make_swiftlet_map(const MapperConfig& config) {
-  auto archive = std::make_unique<MemoryArchive>();
+Expected<FlownMapPtr> make_swiftlet_map(const MapperConfig& config, SessionObserver* observer) {
+  auto archive = std::make_unique<WatchedArchive>(observer);
   auto mapper = Mapper::create(config, archive.get());
   if (!mapper) return forward_error(std::move(mapper));
-  return std::make_unique<SwiftletMap>(std::move(archive), std::move(*mapper));
+  return std::make_unique<SwiftletMap>(std::move(archive), std::move(*mapper), observer);
 }
 
 Expected<FlownMapPtr> make_flown_map(std::string_view name, const MapperConfig& config) {

@@ -11,6 +11,7 @@
 #include "swiftlet/frame/frame.hpp"
 #include "swiftlet/map/rolling_map.hpp"
 #include "swiftlet/pipeline/mapper_config.hpp"
+#include "swiftlet/session/session_observer.hpp"
 
 namespace swiftlet {
 
@@ -29,8 +30,10 @@ class FlownMap {
 };
 using FlownMapPtr = std::unique_ptr<FlownMap>;
 
-/// Swiftlet's own. Errors: those of Mapper::create().
-[[nodiscard]] Expected<FlownMapPtr> make_swiftlet_map(const MapperConfig& config);
+/// Swiftlet's own. `observer`, if any, is told of the flight and outlives the map.
+/// Errors: those of Mapper::create().
+[[nodiscard]] Expected<FlownMapPtr> make_swiftlet_map(const MapperConfig& config,
+                                                      SessionObserver* observer = nullptr);
 /// OctoMap's, with its own sensor model and its claims; of `config` it takes voxels, window and
 /// range. Errors: also kUnsupported if this build has no OctoMap.
 [[nodiscard]] Expected<FlownMapPtr> make_octomap_map(const MapperConfig& config);

@@ -10,6 +10,7 @@
 
 #include "swiftlet/base/time.hpp"
 #include "swiftlet/pipeline/mapper_config.hpp"
+#include "swiftlet/plan/course.hpp"
 #include "swiftlet/plan/plan_options.hpp"
 #include "swiftlet/sim/vehicle/vehicle_model.hpp"
 
@@ -49,6 +50,9 @@ struct FlyOptions {
   MapperConfig mapper = flown_config();
   sim::VehicleOptions vehicle{};
   std::function<bool()> is_unwanted{};  ///< asked now and then; true ends the flight
+  /// Told after each frame that the planner sees. A flight is the same whether it is told or not.
+  std::function<void(const Course&)> on_course{};
+  bool is_paced = false;  ///< no faster than the clock on the wall, for who looks on
 };
 
 }  // namespace swiftlet

@@ -39,12 +39,17 @@ MapModel::Update MapModel::poll() {
     reader_ = std::move(begun->reader);
     map_ = MapMirror(info_.header);
     last_frame_.reset();
+    course_.reset();
     verdicts_.assign(info_.verdicts.size(), 0);
   }
   for (const auto& gone : feed_->take_evicted()) map_.put(gone.index, gone.block, gone.version);
   for (const FrameReport& frame : std::exchange(early_, {})) book(frame, update);
   feed_->take_reports([&](const FrameReport& frame) { book(frame, update); });
   update.has_depth = feed_->take_depth(depth_);
+  if (Course course; feed_->take_course(course)) {
+    course_ = std::move(course);
+    update.has_course = true;
+  }
   if (reader_) {
     if (const auto snapshot = reader_->latest(); snapshot && snapshot->frame_count() > 0) {
       map_.update(*snapshot);

@@ -28,7 +28,8 @@ class MapModel {
     bool is_new_world = false;
     std::vector<BlockIndex> changed;
     std::vector<FrameReport> frames;
-    bool has_depth = false;  ///< depth() is new
+    bool has_depth = false;   ///< depth() is new
+    bool has_course = false;  ///< course() is new
   };
   [[nodiscard]] Update poll();
 
@@ -41,6 +42,8 @@ class MapModel {
   [[nodiscard]] const BlockIndex& centre() const { return centre_; }
   /// The newest depth image that was asked for; empty before the first.
   [[nodiscard]] const DepthImage& depth() const { return depth_; }
+  /// What the planner of this flight is at; nullopt if none has told.
+  [[nodiscard]] const std::optional<Course>& course() const { return course_; }
   /// Asks for the depth image of the next frame.
   void ask_for_depth() {
     if (feed_ != nullptr) feed_->ask_for_depth();
@@ -60,6 +63,7 @@ class MapModel {
   std::vector<FrameReport> early_;  // of a world that poll() has not come to yet
   std::vector<std::uint32_t> verdicts_;
   DepthImage depth_;
+  std::optional<Course> course_;
   Eigen::Vector3d trigger_centre_m_ = Eigen::Vector3d::Zero();
   BlockIndex centre_;
 };

@@ -4,7 +4,7 @@
 import {element} from './dom';
 
 export type Action =
-  | 'orbit' | 'follow' | 'top' | 'cut' | 'free' | 'unknown' | 'boxes' | 'colour' | 'pause' | 'step' | 'higher'
+  | 'orbit' | 'follow' | 'top' | 'cut' | 'free' | 'unknown' | 'boxes' | 'course' | 'colour' | 'pause' | 'step' | 'higher'
   | 'lower' | 'atCamera' | 'theme' | 'screenshot' | 'save' | 'help';
 export type Actions = Record<Action, () => unknown>;
 
@@ -22,6 +22,7 @@ const kKeys: [string, Action, string][] = [
   ['f', 'free', 'free voxels'],
   ['u', 'unknown', 'undecided voxels'],
   ['b', 'boxes', 'window and trigger box'],
+  ['r', 'course', 'a planner’s path, goal and frontier'],
   ['p', 'screenshot', 'screenshot'],
   ['d', 'save', 'download the map'],
   ['t', 'theme', 'light or dark'],

@@ -37,6 +37,8 @@ export function sceneTheme(): Theme {
     frustum: css('--accent'),
     window: css('--window'),
     trigger: css('--trigger'),
+    goal: css('--accent'),
+    frontier: css('--frontier'),
     highlight: css('--text'),
     slice: css('--text'),
     free: css('--free'),

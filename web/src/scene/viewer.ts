@@ -7,6 +7,7 @@ import {walk} from '../state/walk';
 import type {World} from '../state/world';
 import type {Vec3} from '../wire/messages';
 import {Cameras, type CameraMode} from './cameras';
+import {CourseLayer} from './course_layer';
 import {VoxelLayer} from './voxel_layer';
 import type {Colouring} from './colours';
 import {LineLayer} from './line_layer';
@@ -19,6 +20,8 @@ export interface Theme {
   frustum: string;
   window: string;
   trigger: string;
+  goal: string;
+  frontier: string;
   highlight: string;
   slice: string;
   free: string;
@@ -27,20 +30,21 @@ export interface Theme {
 
 const kFieldOfView_m = 1; // as in the thesis
 
-/// The 3-D view. Draws when something has changed and not otherwise, in at most ten draw calls.
+/// The 3-D view. Draws when something has changed and not otherwise, in at most a dozen draw calls.
 export class Viewer {
   readonly renderer: THREE.WebGLRenderer;
   readonly cameras: Cameras;
   readonly occupied: VoxelLayer;
   readonly free: VoxelLayer;
   readonly unknown: VoxelLayer;
-  readonly show = {free: false, unknown: false, boxes: true, cut: true};
+  readonly show = {free: false, unknown: false, boxes: true, course: true, cut: true};
   sliceZ_m = 1.2;
   picked: Vec3 | null = null; // voxel
   frames = 0;
   #scene = new THREE.Scene();
   #lines = new LineLayer();
   #vehicle = makeVehicle();
+  readonly course = new CourseLayer();
   #plane: THREE.Mesh;
   #grid: THREE.GridHelper | null = null;
   #theme: Theme;
@@ -64,7 +68,8 @@ export class Viewer {
       new THREE.PlaneGeometry(1, 1),
       new THREE.MeshBasicMaterial({transparent: true, opacity: 0.07, depthWrite: false, side: THREE.DoubleSide}));
     this.#plane.visible = false;
-    this.#scene.add(this.occupied.mesh, this.free.mesh, this.unknown.mesh, this.#lines.lines, this.#vehicle, this.#plane);
+    this.#scene.add(this.occupied.mesh, this.free.mesh, this.unknown.mesh, this.#lines.lines, this.#vehicle, this.#plane,
+      this.course.group);
     this.#scene.add(new THREE.HemisphereLight('#ffffff', '#5a6470', 2.6));
     this.#theme = theme;
     this.setTheme(theme);
@@ -96,7 +101,7 @@ export class Viewer {
     this.cameras.setMode(mode);
     this.refresh();
   }
-  setShown(what: 'free' | 'unknown' | 'boxes' | 'cut', isShown: boolean): void {
+  setShown(what: 'free' | 'unknown' | 'boxes' | 'course' | 'cut', isShown: boolean): void {
     this.show[what] = isShown;
     if (what === 'free' || what === 'unknown') {
       if (isShown) this[what].update(this.world, this.world.blocks.keys());
@@ -115,6 +120,7 @@ export class Viewer {
     const {clientWidth, clientHeight} = this.canvas;
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.renderer.setSize(clientWidth, clientHeight, false);
+    this.course.resize(clientWidth, clientHeight);
     this.cameras.resize(clientWidth, clientHeight);
     this.refresh();
   }
@@ -136,7 +142,8 @@ export class Viewer {
     }
     const frame = this.world.lastFrame;
     const size: [number, number] = [this.canvas.clientWidth, this.canvas.clientHeight];
-    const moves = this.cameras.step(this.#bounds?.low ?? null, this.#bounds?.high ?? null, frame, dt_s, size);
+    const [low, high] = this.#framed();
+    const moves = this.cameras.step(low, high, frame, dt_s, size);
     if (!moves && !this.#isStale) return;
     this.#isStale = false;
     this.#lastDraw_ms = now_ms;
@@ -185,6 +192,16 @@ export class Viewer {
       }
     }
     this.refresh();
+  }
+
+  /// What orbit and top show: the map, and the goal of a flight.
+  #framed(): [Vec3 | null, Vec3 | null] {
+    const goal = this.show.course ? this.world.course?.goal : null;
+    const bounds = this.#bounds;
+    if (!bounds || !goal) return [bounds?.low ?? null, bounds?.high ?? null];
+    const withGoal = (corner: Vec3, pick: (a: number, b: number) => number): Vec3 =>
+      corner.map((v, k) => pick(v, goal[k]!)) as Vec3;
+    return [withGoal(bounds.low, Math.min), withGoal(bounds.high, Math.max)];
   }
 
   #measure(): {low: Vec3; high: Vec3} | null {
@@ -242,6 +259,7 @@ export class Viewer {
         colour('highlight'));
     }
     lines.end();
+    this.course.show(show.course ? world.course : null, cut, this.#theme);
     if (this.#bounds) {
       const {low, high} = this.#bounds;
       this.#plane.visible = true;

@@ -2,7 +2,7 @@
 // Copyright the Swiftlet authors
 
 import {blockHash} from '../wire/hash';
-import type {Digest, FrameRecord, Hello, ServerMessage, StatusMessage, Vec3} from '../wire/messages';
+import type {Course, Digest, FrameRecord, Hello, ServerMessage, StatusMessage, Vec3} from '../wire/messages';
 
 export const kUnknownVoxel = 127;
 export const kEdge = 8;
@@ -35,6 +35,7 @@ export class World {
   status: StatusMessage | null = null;
   frames: FrameRecord[] = [];
   track: Vec3[] = []; // where the camera was [m, world]
+  course: Course | null = null; // of the planner, if the flight has one
   digest: Digest = {blocks: 0, occupied: 0, free: 0, hashA: 0, hashB: 0};
   confirmedFrame = -1; // the map was exactly the server's at this frame
   revision = 0; // counts changes of blocks
@@ -50,6 +51,7 @@ export class World {
     if (!isSame) {
       this.frames = [];
       this.track = [];
+      this.course = null;
     }
   }
 
@@ -66,6 +68,9 @@ export class World {
         break;
       case 'status':
         this.status = message;
+        break;
+      case 'course':
+        this.course = message;
         break;
       case 'checksum': {
         const isRight = (Object.keys(this.digest) as (keyof Digest)[]).every((k) => this.digest[k] === message.digest[k]);

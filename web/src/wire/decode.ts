@@ -47,6 +47,8 @@ function decodeUnguarded(data: ArrayBuffer): ServerMessage | null {
           hashB: view.getUint32(36, true),
         },
       };
+    case 5:
+      return {type: 'course', ...header, ...readCourse(view)};
     default:
       return null;
   }
@@ -138,6 +140,22 @@ function readStatus(view: DataView) {
     reportsMissed: view.getUint32(96, true),
     verdicts: counters(100, verdictCount),
     losses: counters(100 + 4 * verdictCount, lossCount),
+  };
+}
+
+function readCourse(view: DataView) {
+  const place = (at: number): Vec3 => [0, 4, 8].map((k) => view.getFloat32(at + k, true)) as Vec3;
+  const [points, pieces, flags] = [view.getUint16(20, true), view.getUint16(22, true), view.getUint32(24, true)];
+  const end = 64 + 16 * points;
+  return {
+    frame: Number(view.getBigUint64(12, true)),
+    goal: flags & 1 ? place(28) : null,
+    target: flags & 2 ? place(40) : null,
+    looksAt: flags & 4 ? place(52) : null,
+    path: Array.from({length: points}, (_, i) => (
+      {position: place(64 + 16 * i), clearance_m: view.getFloat32(64 + 16 * i + 12, true)})),
+    frontier: Array.from({length: pieces}, (_, i) => (
+      {centroid: place(end + 16 * i), voxels: view.getUint32(end + 16 * i + 12, true)})),
   };
 }
 

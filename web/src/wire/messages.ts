@@ -105,4 +105,20 @@ export interface Checksum extends Header {
   digest: Digest;
 }
 
-export type ServerMessage = Blocks | Frames | StatusMessage | Checksum;
+export interface CoursePoint {
+  position: Vec3; // world [m]
+  clearance_m: number; // to the nearest voxel that is not free
+}
+
+/// What a planner is at.
+export interface Course extends Header {
+  type: 'course';
+  frame: number;
+  goal: Vec3 | null;
+  target: Vec3 | null; // where the path leads
+  looksAt: Vec3 | null; // what is to be seen from there
+  path: CoursePoint[]; // from the vehicle on
+  frontier: {centroid: Vec3; voxels: number}[];
+}
+
+export type ServerMessage = Blocks | Frames | StatusMessage | Checksum | Course;

@@ -8,7 +8,7 @@ import {describe, expect, it} from 'vitest';
 
 import {World} from '../../src/state/world';
 import {decode, decodeHello, WireError} from '../../src/wire/decode';
-import type {Blocks, Frames, Hello, Checksum, StatusMessage} from '../../src/wire/messages';
+import type {Blocks, Course, Frames, Hello, Checksum, StatusMessage} from '../../src/wire/messages';
 
 function golden(name: string): Buffer {
   return readFileSync(new URL(`../../../tests/golden/station/${name}`, import.meta.url));
@@ -59,6 +59,21 @@ describe('the golden files', () => {
     });
   });
 
+  it('course', () => {
+    const message = decode(bytes('course.bin')) as Course;
+    expect(message).toEqual({
+      type: 'course', sequence: 21, world: 3, frame: 5_000_000_001, goal: [8.5, 1.75, 1.25], target: [2.5, -0.5, 1],
+      looksAt: null, path: [{position: [1, 0.5, 1.25], clearance_m: 0.75}, {position: [2.5, -0.5, 1], clearance_m: 0.25}],
+      frontier: [{centroid: [3, -1, 0.5], voxels: 321}],
+    });
+    const world = new World();
+    world.start(hello());
+    world.apply(message);
+    expect(world.course).toBe(message);
+    world.start({...hello(), world: 4});
+    expect(world.course).toBeNull();
+  });
+
   it('the checksum is that of the blocks', () => {
     const world = new World();
     world.start(hello());
@@ -72,7 +87,7 @@ describe('the golden files', () => {
 
 describe('what is no message', () => {
   it('is refused whatever it is cut to', () => {
-    for (const name of ['blocks.bin', 'frames.bin', 'status.bin', 'checksum.bin']) {
+    for (const name of ['blocks.bin', 'frames.bin', 'status.bin', 'checksum.bin', 'course.bin']) {
       const whole = bytes(name);
       for (let size = 0; size < whole.byteLength; ++size) {
         expect(() => decode(whole.slice(0, size)), `${name} cut to ${size}`).toThrow(WireError);

@@ -12,9 +12,11 @@
 #include "swiftlet/app/commands/shared_flags.hpp"
 #include "swiftlet/app/interrupt.hpp"
 #include "swiftlet/app/report/flight_summary.hpp"
+#include "swiftlet/app/view/flight_watch.hpp"
 #include "swiftlet/config/config_file.hpp"
 #include "swiftlet/file/output_file.hpp"
 #include "swiftlet/file/text_output.hpp"
+#include "swiftlet/session/flight.hpp"
 
 #if SWIFTLET_HAS_EMBREE
 #include "swiftlet/fly/flight_task.hpp"
@@ -36,8 +38,26 @@ struct FlyCommand {
   std::string map = "swiftlet";
   ConfigInput config;
   std::string track;
+  bool is_viewed = false;
+  bool stays = false;  ///< the view, after the flight
+  StationFlags station;
   bool as_json = false;
 };
+
+/// The page of a flight, or null.
+Expected<std::unique_ptr<FlightWatch>> start_page(const FlyCommand& command,
+                                                  const MapperConfig& config) {
+  if (!command.is_viewed) return nullptr;
+  if (command.map != "swiftlet") {
+    return fail(ErrorCode::kUsage, "--view", "the page shows flights on our own map alone",
+                "leave out --map or --view");
+  }
+  SourceInfo info;
+  info.uri = command.scene;
+  auto page = FlightWatch::start(command.station, command.scene, flight_meta(info, config));
+  if (page) tell_address((*page)->station());
+  return page;
+}
 
 Faults run_flight(FlyCommand command) {
   if (!command.track.empty()) {
@@ -65,12 +85,24 @@ Faults run_flight(FlyCommand command) {
     how.mapper.depth.max_range_m = flown.depth.max_range_m;
   const InterruptGuard guard;
   how.is_unwanted = [&] { return guard.is_interrupted(); };
-  auto map = make_flown_map(command.map, how.mapper);
+  auto page = start_page(command, how.mapper);
+  if (!page) return fault_of(std::move(page));
+  if (*page) {
+    how.is_paced = true;
+    how.on_course = [&](const Course& course) { (*page)->note(course); };
+  }
+  auto map =
+      *page ? make_swiftlet_map(how.mapper, page->get()) : make_flown_map(command.map, how.mapper);
   if (!map) return fault_of(std::move(map));
   how.counts_measured_time = command.map == "octomap";
   const auto report = fly(task->scene, task->start, how, std::move(*map));
   if (!report) return {report.error()};
+  if (*page) (*page)->finish();
   fmt::print("{}\n", command.as_json ? flight_json(*report) : flight_text(*report));
+  if (*page && command.stays) {
+    std::fflush(stdout);
+    wait_for(guard);
+  }
   if (!command.track.empty()) {
     if (auto written = write_text(command.track, track_csv(*report)); !written)
       return fault_of(std::move(written));
@@ -113,11 +145,19 @@ Action declare_fly(CLI::App& parser) {
       ->capture_default_str();
   declare_config_flags(parser, o->config);
   parser.add_option("--track", o->track, "where it flew, as CSV")->type_name("FILE");
+  CLI::Option* view =
+      parser.add_flag("--view", o->is_viewed, "show map, path and frontier in the browser")
+          ->group("Ground station");
+  parser.add_flag("--stay", o->stays, "go on showing it after the flight, until Ctrl-C")
+      ->needs(view)
+      ->group("Ground station");
+  declare_station_flags(parser, o->station);
   parser.add_flag("--json", o->as_json, "one JSON object, for machines");
   parser.footer(
       "Examples:\n"
       "  swiftlet fly sim:apartment --to 8.4,1.7,1.3\n"
       "  swiftlet fly sim:apartment --explore\n"
+      "  swiftlet fly random:forest?seed=7 --view      then open the address it tells\n"
       "  swiftlet fly random:forest?seed=7 --speed 3 --json\n"
       "Flies a simulated vehicle on nothing but the map that it makes on the way, and tells how\n"
       "near it came to the true scene. Exit code 1 if it did not do what it was to.");

@@ -22,6 +22,8 @@ class FlightFeed : public SessionObserver {
 
   /// What the source has lost so far, and blocks of the map that the disk has refused.
   void note(const FrameTally& tally, std::uint64_t blocks_lost);
+  /// What the planner is at, if the flight has one. From the thread of frame_done().
+  void note(const Course& course) { feed_.course(course); }
   /// There will be no more frames.
   void finish() { feed_.finish(); }
 

@@ -17,6 +17,7 @@ using namespace std::chrono_literals;
 constexpr std::size_t kFramesKept = 512;  // for a slow client; older ones are left out
 constexpr std::size_t kFramesPerMessage = 64;
 constexpr auto kStatusEvery = 200ms;
+constexpr double kCourseShare = 0.1;        // of a capped link, at most
 constexpr std::uint32_t kLeastRate = 2000;  // [bytes/s]: less than that shows nothing
 
 class PageProtocol final : public ClientProtocol {
@@ -31,6 +32,7 @@ class PageProtocol final : public ClientProtocol {
     } else {
       queue_.mark(update.changed, model_.map());
     }
+    has_course_ = (has_course_ && !update.is_new_world) || update.has_course;
     is_confirmed_ = is_confirmed_ && update.changed.empty() && !update.is_new_world;
     for (const FrameReport& frame : update.frames) frames_.push_back(frame);
     while (frames_.size() > kFramesKept) frames_.pop_front();
@@ -41,6 +43,7 @@ class PageProtocol final : public ClientProtocol {
   std::optional<Outgoing> next(Time now) override {
     if (needs_hello_ && model_.world() > 0) {
       needs_hello_ = false;
+      has_course_ = model_.course().has_value();
       const std::string text = hello_text(model_.info(), model_.world());
       return Outgoing{true, Bytes(text.begin(), text.end())};
     }
@@ -83,6 +86,7 @@ class PageProtocol final : public ClientProtocol {
       last_status_ = now;
       return status_message(header(), status());
     }
+    if (has_course_ && now >= next_course_) return next_course(now);
     const bool is_frames_turn = std::exchange(was_blocks_turn_, !was_blocks_turn_);
     if (!frames_.empty() && (is_frames_turn || queue_.is_up_to_date())) return next_frames();
     if (!queue_.is_up_to_date()) return next_blocks();
@@ -98,6 +102,17 @@ class PageProtocol final : public ClientProtocol {
     const std::vector<FrameReport> some(frames_.begin(), frames_.begin() + count);
     frames_.erase(frames_.begin(), frames_.begin() + count);
     return frames_message(header(), some);
+  }
+
+  Bytes next_course(Time now) {
+    has_course_ = false;
+    Bytes message = course_message(header(), *model_.course());
+    const double seconds =
+        rate_ == 0 ? 0.0 : static_cast<double>(message.size()) / (rate_ * kCourseShare);
+    next_course_ =
+        now + std::max<Time::duration>(kStatusEvery, std::chrono::duration_cast<Time::duration>(
+                                                         std::chrono::duration<double>(seconds)));
+    return message;
   }
 
   Bytes next_blocks() {
@@ -127,8 +142,10 @@ class PageProtocol final : public ClientProtocol {
   std::uint32_t clients_ = 0;
   std::uint32_t rate_ = 0;
   Time last_status_{};
+  Time next_course_{};
   Pace pace_ = Pace::kFlow;
   bool needs_hello_ = true;
+  bool has_course_ = false;
   bool is_confirmed_ = false;
   bool was_blocks_turn_ = false;
 };

@@ -5,6 +5,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "swiftlet/base/byte_writer.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::uint16_t kFrameRecordBytes = 112;
 constexpr std::uint16_t kClearsFirst = 1;  // flag of a blocks message
+constexpr std::size_t kCourseParts = 4096;
 
 void write_header(ByteWriter& out, MessageType type, const MessageHeader& header,
                   std::uint16_t flags = 0) {
@@ -58,6 +60,10 @@ void write_frame(ByteWriter& out, const FrameReport& frame) {
   for (const std::uint32_t n : frame.lost) lost += n;
   out.u32(lost);
   out.u32(0);
+}
+
+void write_place(ByteWriter& out, const Eigen::Vector3d& p) {
+  for (const double v : p) out.f32(v);
 }
 
 std::vector<double> list_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -118,6 +124,29 @@ Bytes status_message(const MessageHeader& header, const StatusReport& status) {
   out.u32(status.reports_missed);
   for (const std::uint32_t n : status.verdicts) out.u32(n);
   for (const std::uint32_t n : status.losses) out.u32(n);
+  return message;
+}
+
+Bytes course_message(const MessageHeader& header, const Course& course) {
+  const std::size_t points = std::min(course.path.size(), kCourseParts);
+  const std::size_t pieces = std::min(course.frontier.size(), kCourseParts);
+  Bytes message;
+  ByteWriter out(message);
+  write_header(out, MessageType::kCourse, header);
+  out.u64(course.frame_count);
+  out.u16(to<std::uint16_t>(points));
+  out.u16(to<std::uint16_t>(pieces));
+  out.u32((course.goal_m ? 1U : 0U) | (course.target_m ? 2U : 0U) | (course.looks_at_m ? 4U : 0U));
+  for (const auto& place : {course.goal_m, course.target_m, course.looks_at_m})
+    write_place(out, place.value_or(Eigen::Vector3d::Zero()));
+  for (std::size_t i = 0; i < points; ++i) {
+    write_place(out, course.path[i].p_world);
+    out.f32(course.path[i].clearance_m);
+  }
+  for (std::size_t i = 0; i < pieces; ++i) {
+    write_place(out, course.frontier[i].centroid_m);
+    out.u32(course.frontier[i].voxels);
+  }
   return message;
 }
 

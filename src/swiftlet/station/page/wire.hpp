@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "swiftlet/plan/course.hpp"
 #include "swiftlet/station/page/client_queue.hpp"
 #include "swiftlet/station/state/map_info.hpp"
 #include "swiftlet/station/state/map_mirror.hpp"
@@ -25,7 +26,13 @@ inline constexpr std::uint8_t kWireVersion = 1;
 using Bytes = std::vector<std::uint8_t>;
 
 /// The values are on the wire.
-enum class MessageType : std::uint8_t { kBlocks = 1, kFrames = 2, kStatus = 3, kChecksum = 4 };
+enum class MessageType : std::uint8_t {
+  kBlocks = 1,
+  kFrames = 2,
+  kStatus = 3,
+  kChecksum = 4,
+  kCourse = 5
+};
 
 /// What every binary message begins with.
 struct MessageHeader {
@@ -57,6 +64,8 @@ struct StatusReport {
 [[nodiscard]] Bytes frames_message(const MessageHeader& header,
                                    std::span<const FrameReport> reports);
 [[nodiscard]] Bytes status_message(const MessageHeader& header, const StatusReport& status);
+/// Of a path or a frontier with more than 4096 parts, the first ones.
+[[nodiscard]] Bytes course_message(const MessageHeader& header, const Course& course);
 /// The client has been sent all of the map as of this frame; its digest must be this.
 [[nodiscard]] Bytes checksum_message(const MessageHeader& header, std::uint64_t frame_count,
                                      const MapDigest& digest);

@@ -15,6 +15,7 @@ LiveFeed::LiveFeed() {
 void LiveFeed::begin_world(MapReader reader, const MapInfo& info) {
   const std::lock_guard lock(mutex_);
   filling_.clear();
+  course_.reset();
   begun_ = World{world_.load() + 1, info, std::move(reader)};
   world_.store(begun_->number);
 }
@@ -61,6 +62,20 @@ bool LiveFeed::take_depth(DepthImage& out) {
   if (!has_new_depth_) return false;
   std::swap(out, depth_);
   has_new_depth_ = false;
+  return true;
+}
+
+void LiveFeed::course(const Course& course) {
+  Course copy = course;
+  const std::lock_guard lock(mutex_);
+  std::swap(course_.emplace(), copy);
+}
+
+bool LiveFeed::take_course(Course& out) {
+  const std::lock_guard lock(mutex_);
+  if (!course_) return false;
+  out = std::move(*course_);
+  course_.reset();
   return true;
 }
 

@@ -13,6 +13,7 @@
 #include "swiftlet/frame/depth_image.hpp"
 #include "swiftlet/map/block_archive.hpp"
 #include "swiftlet/map/map_snapshot.hpp"
+#include "swiftlet/plan/course.hpp"
 #include "swiftlet/station/state/map_info.hpp"
 #include "swiftlet/station/state/report_ring.hpp"
 
@@ -40,6 +41,8 @@ class LiveFeed {
   /// Keeps the image if somebody wants to see it and the station is not just taking one. Copies
   /// it then, and allocates where it is larger than all before.
   void depth(const DepthImage& image);
+  /// What the planner is at. Copies it under a lock that the station holds only to exchange it.
+  void course(const Course& course);
   /// Frames that the source has lost so far; also while none comes out of it.
   void lost(const std::array<std::uint32_t, kMaxLosses>& counts);
   void finish() { is_over_.store(true); }
@@ -68,6 +71,8 @@ class LiveFeed {
   void ask_for_depth() { wants_depth_.store(true); }
   /// The image that was asked for; false if there is none yet.
   [[nodiscard]] bool take_depth(DepthImage& out);
+  /// The newest course; false if it is not newer than the last one taken.
+  [[nodiscard]] bool take_course(Course& out);
   [[nodiscard]] std::array<std::uint32_t, kMaxLosses> losses() const;
   [[nodiscard]] std::uint64_t reports_missed() const { return reports_.missed(); }
   [[nodiscard]] std::uint64_t evicted_missed() const { return evicted_missed_.load(); }
@@ -84,6 +89,7 @@ class LiveFeed {
   // Guarded by mutex_.
   std::vector<EvictedBlock> filling_;
   std::optional<World> begun_;
+  std::optional<Course> course_;
 
   std::atomic<bool> wants_depth_{false};
   std::mutex depth_mutex_;
