@@ -171,6 +171,17 @@ TEST(DoctorChecks, each_find_what_they_are_for) {
   EXPECT_EQ(seen.size(), doctor_checks().size()) << "every check has an illness here";
 }
 
+TEST(DoctorChecks, do_not_call_a_pose_of_the_camera_itself_askew) {
+  DoctorExam exam = healthy();
+  const Eigen::Quaterniond optical(0.5, -0.5, 0.5, -0.5);  // of a camera that looks along x
+  exam.facts->poses = {};
+  for (int t_ms = 0; t_ms <= 2000; t_ms += 5)
+    exam.facts->poses.note({Stamp{t_ms * 1'000'000LL}, optical, {1e-3 * t_ms, 0, 0}});
+  EXPECT_EQ(worst(exam, "poses"), Severity::kFault);
+  exam.rig.cameras[0].T_body_camera = {};
+  EXPECT_EQ(worst(exam, "poses"), Severity::kNote);
+}
+
 TEST(DoctorChecks, survive_a_rig_of_which_nothing_is_known) {
   const DoctorExam nothing;
   for (const auto& check : doctor_checks()) EXPECT_EQ(worst(nothing, check.name), Severity::kGood);

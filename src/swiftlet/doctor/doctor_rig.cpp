@@ -122,7 +122,17 @@ void check_poses(const DoctorExam& exam, std::vector<Finding>& findings) {
         {Severity::kWarning,
          fmt::format("{} of {} poses are not finite or no rotation", poses.broken, poses.samples),
          "they are refused and counted; look for what writes them"});
-  if (poses.least_tilt_rad && *poses.least_tilt_rad > std::numbers::pi / 3)
+  // Of a pose of the camera itself nobody can tell which way is up: z is its optical axis.
+  const auto& cameras = exam.rig.cameras;
+  const bool is_of_camera =
+      !cameras.empty() && std::ranges::all_of(cameras, [](const RigCamera& camera) {
+        return camera.T_body_camera.rotation().isApprox(Eigen::Quaterniond::Identity());
+      });
+  if (is_of_camera)
+    findings.push_back({Severity::kNote,
+                        "they are of the camera itself, so nobody can tell whether it is upright",
+                        "if the map lies on its side, check pose.axes"});
+  else if (poses.least_tilt_rad && *poses.least_tilt_rad > std::numbers::pi / 3)
     findings.push_back(
         {Severity::kFault,
          fmt::format("the body is never less than {:.0f} degrees from upright",
