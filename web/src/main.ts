@@ -34,7 +34,6 @@ const link = new Link(socket.href, {
     if (world.hello && world.hello.source !== hello.source) events.list = [];
     events.forget();
     world.start(hello);
-    element('show-course').hidden = !world.course;
   },
   message: (message) => {
     const {confirmed, isRight} = world.apply(message);
@@ -45,7 +44,6 @@ const link = new Link(socket.href, {
       viewer.refresh();
     } else if (message.type === 'course') {
       viewer.refresh();
-      element('show-course').hidden = false;
     } else if (message.type === 'status' && world.hello) {
       events.status(message, world.hello, performance.now());
     }
@@ -73,7 +71,7 @@ function setCamera(mode: CameraMode): void {
     button.setAttribute('aria-checked', String(button.dataset.camera === mode));
   }
 }
-function toggle(what: 'free' | 'unknown' | 'boxes' | 'course' | 'cut'): void {
+function toggle(what: keyof Viewer['show']): void {
   viewer.setShown(what, !viewer.show[what]);
   document.querySelector(`[data-show=${what}]`)?.setAttribute('aria-pressed', String(viewer.show[what]));
 }
@@ -171,6 +169,7 @@ function drawAll(now_ms: number): void {
   // Figures and charts that change faster than this cannot be read.
   if (now_ms - panelsAt_ms < 80) return;
   panelsAt_ms = now_ms;
+  element('show-course').hidden = !world.course;
   slice.draw();
   drawProfile(world);
   timeline.draw();

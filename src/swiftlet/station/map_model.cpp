@@ -46,7 +46,7 @@ MapModel::Update MapModel::poll() {
   for (const FrameReport& frame : std::exchange(early_, {})) book(frame, update);
   feed_->take_reports([&](const FrameReport& frame) { book(frame, update); });
   update.has_depth = feed_->take_depth(depth_);
-  if (Course course; feed_->take_course(course)) {
+  if (auto course = feed_->take_course()) {
     course_ = std::move(course);
     update.has_course = true;
   }

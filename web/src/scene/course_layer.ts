@@ -13,7 +13,7 @@ const kTight_m = 0.25;
 const kRoomy_m = 0.8;
 
 /// Red where there is hardly room for a small drone, green where there is plenty.
-export function clearanceColour(clearance_m: number): THREE.Color {
+function clearanceColour(clearance_m: number): THREE.Color {
   const t = Math.min(1, Math.max(0, (clearance_m - kTight_m) / (kRoomy_m - kTight_m)));
   return new THREE.Color().setHSL(0.36 * t, 0.85, 0.55);
 }

@@ -101,7 +101,7 @@ export class Viewer {
     this.cameras.setMode(mode);
     this.refresh();
   }
-  setShown(what: 'free' | 'unknown' | 'boxes' | 'course' | 'cut', isShown: boolean): void {
+  setShown(what: keyof Viewer['show'], isShown: boolean): void {
     this.show[what] = isShown;
     if (what === 'free' || what === 'unknown') {
       if (isShown) this[what].update(this.world, this.world.blocks.keys());

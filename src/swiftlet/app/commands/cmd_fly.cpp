@@ -99,13 +99,13 @@ Faults run_flight(FlyCommand command) {
   if (!report) return {report.error()};
   if (*page) (*page)->finish();
   fmt::print("{}\n", command.as_json ? flight_json(*report) : flight_text(*report));
-  if (*page && command.stays) {
-    std::fflush(stdout);
-    wait_for(guard);
-  }
   if (!command.track.empty()) {
     if (auto written = write_text(command.track, track_csv(*report)); !written)
       return fault_of(std::move(written));
+  }
+  if (*page && command.stays) {
+    std::fflush(stdout);
+    wait_for(guard);
   }
   if (report->is_success()) return {};
   return {{ErrorCode::kCorruptInput, command.scene,

@@ -32,7 +32,7 @@ class PageProtocol final : public ClientProtocol {
     } else {
       queue_.mark(update.changed, model_.map());
     }
-    has_course_ = (has_course_ && !update.is_new_world) || update.has_course;
+    has_course_ = has_course_ || update.has_course;
     is_confirmed_ = is_confirmed_ && update.changed.empty() && !update.is_new_world;
     for (const FrameReport& frame : update.frames) frames_.push_back(frame);
     while (frames_.size() > kFramesKept) frames_.pop_front();

@@ -66,17 +66,14 @@ bool LiveFeed::take_depth(DepthImage& out) {
 }
 
 void LiveFeed::course(const Course& course) {
-  Course copy = course;
+  std::optional<Course> newest = course;  // and then the older one, which goes after the lock
   const std::lock_guard lock(mutex_);
-  std::swap(course_.emplace(), copy);
+  course_.swap(newest);
 }
 
-bool LiveFeed::take_course(Course& out) {
+std::optional<Course> LiveFeed::take_course() {
   const std::lock_guard lock(mutex_);
-  if (!course_) return false;
-  out = std::move(*course_);
-  course_.reset();
-  return true;
+  return std::exchange(course_, std::nullopt);
 }
 
 std::optional<LiveFeed::World> LiveFeed::world_after(std::uint32_t number) {

@@ -71,8 +71,8 @@ class LiveFeed {
   void ask_for_depth() { wants_depth_.store(true); }
   /// The image that was asked for; false if there is none yet.
   [[nodiscard]] bool take_depth(DepthImage& out);
-  /// The newest course; false if it is not newer than the last one taken.
-  [[nodiscard]] bool take_course(Course& out);
+  /// The newest course; nullopt if it was taken already.
+  [[nodiscard]] std::optional<Course> take_course();
   [[nodiscard]] std::array<std::uint32_t, kMaxLosses> losses() const;
   [[nodiscard]] std::uint64_t reports_missed() const { return reports_.missed(); }
   [[nodiscard]] std::uint64_t evicted_missed() const { return evicted_missed_.load(); }
